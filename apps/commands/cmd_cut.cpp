@@ -172,11 +172,14 @@ void add_input_options(CLI::App& app, CutCommand& command) {
          "--scale", command.heights.scale,
          "Set the scale in metres = number * scale + offset (default: 1; for Float32 by range, and from a server "
          "as Float32)")
+      ->check(number_in(-kMostLength_m, kMostLength_m))
       ->needs(elevation);
   app.add_option("--offset", command.heights.offset, "Set the offset in metres (default: 0; for Float32 by range)")
+      ->check(number_in(-kMostLength_m, kMostLength_m))
       ->needs(elevation);
   app.add_option("--nodata", command.numbers.nodata,
-                 "Set the value for no data in a picture of heights or numbers that does not say it");
+                 "Set the value for no data in a picture of heights or numbers that does not say it")
+      ->check(any_number());
   app.add_option("--band", command.numbers.band,
                  "Keep the numbers of this band of a TIFF, counted from 1. Without it, gray TIFFs of 16 bits and more, "
                  "and of floats, keep their numbers, unless --format asks for pictures")

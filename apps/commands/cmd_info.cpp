@@ -171,6 +171,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_option("--band", options->band.band, "Describe this band of a TIFF, counted from 1")
       ->check(whole_number_in(1, 65535));
   command->add_option("--nodata", options->band.nodata, "Set the value that means no data in a TIFF")
+      ->check(any_number())
       ->type_name("VALUE");
   command->add_flag("--verify", options->verify,
                     "Decode every tile, name broken tiles, and check a cache's database; exit code 1 on any fault");

@@ -98,6 +98,7 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
   add_stretch_options(command, options);
   add_colormap_option(command, options);
   command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
+      ->check(any_number())
       ->type_name("VALUE");
 }
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include "apps/scene/scene_options.h"
@@ -37,6 +38,11 @@ CLI::Validator number_in(double low, double high) {
   return {check, fmt::format("{}...{}", low, high)};
 }
 
+CLI::Validator any_number() {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return number_in(-kMost, kMost);
+}
+
 CLI::Validator whole_number_in(long low, long high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = read_number(text);
@@ -57,7 +63,9 @@ std::string body_names() {
 Result<std::optional<double>> parse_length_or_off(std::string_view text) {
   if (text == "off") return std::optional<double>();
   const std::optional<double> length = read_number(text);
-  if (!length || *length < 0.0) return Error{in_quotes(text) + " is neither a length in metres, 0 or more, nor off"};
+  if (!length || *length < 0.0 || *length > kMostLength_m) {
+    return Error{fmt::format("{} is neither a length of 0 to {} m nor off", in_quotes(text), kMostLength_m)};
+  }
   return length;
 }
 

@@ -15,6 +15,8 @@ namespace terrella {
 /// Accepts numbers in [low, high]. Refuses NaN (which passes CLI11's own range), text after the number, and
 /// hexadecimal. The message contains the value and the range; CLI11 puts the option's name in front.
 [[nodiscard]] CLI::Validator number_in(double low, double high);
+/// Accepts each finite number.
+[[nodiscard]] CLI::Validator any_number();
 [[nodiscard]] CLI::Validator whole_number_in(long low, long high);
 
 /// Adds `--timeout`, seconds.
@@ -23,10 +25,13 @@ void add_timeout_option(CLI::App& app, double& seconds, const char* help);
 /// Reads "WxH", whole pixels, each in [1, kMaxSide_px].
 [[nodiscard]] Result<Viewport> parse_size(std::string_view text);
 
+/// Largest length and height of an option, metres; planets are smaller.
+inline constexpr double kMostLength_m = 1.0e9;
+
 /// Names of all bodies, with commas.
 [[nodiscard]] std::string body_names();
 
-/// Reads a length of at least 0 metres; "off" gives nullopt.
+/// Reads a length of 0 to kMostLength_m metres; "off" gives nullopt.
 [[nodiscard]] Result<std::optional<double>> parse_length_or_off(std::string_view text);
 
 /// Returns the value, or throws a CLI::ValidationError that names the option.

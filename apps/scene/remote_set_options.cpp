@@ -1,6 +1,9 @@
 #include "apps/scene/remote_set_options.h"
 
+#include <string_view>
+
 #include "apps/scene/option_checks.h"
+#include "base/number.h"
 #include "streaming/http/http_headers.h"
 #include "tiles/tile_grid.h"
 
@@ -17,13 +20,24 @@ CLI::Validator sendable_header() {
           ""};
 }
 
+/// Accepts times of ISO 8601, which begin with a digit, periods, and the words that servers have for a time.
+CLI::Validator is_time() {
+  return {[](const std::string& text) -> std::string {
+            const bool iso = !text.empty() && (std::string_view("0123456789P+-").find(text.front()) != text.npos);
+            if (iso || text == "current" || text == "default" || text == "latest" || text == "present") return {};
+            return in_quotes(text) + " is no time; write it as 2024-07-01 or 2024-07-01T12:00:00Z";
+          },
+          ""};
+}
+
 }  // namespace
 
 void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer", remote.layer, "Choose the WMTS or WMS layer");
   app.add_option("--matrix-set", remote.matrix_set, "Choose the tile matrix set if the WMTS layer has several");
   app.add_option("--style", remote.style, "Choose the style of the WMTS or WMS layer");
-  app.add_option("--layer-time", remote.time, "Choose the time (ISO 8601) if the WMTS or WMS layer has several");
+  app.add_option("--layer-time", remote.time, "Choose the time (ISO 8601) if the WMTS or WMS layer has several")
+      ->check(is_time());
   app.add_option("--root-span", remote.root_span_deg,
                  "Set the degrees that a level-0 tile of a URL template or WMS spans (default: 180)")
       ->check(number_in(0.001, 1e4));

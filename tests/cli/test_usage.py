@@ -147,6 +147,29 @@ class Ranges(ProgramTest):
                 self.assert_fails(WRONG_USAGE, "cut", "p.png", "-o", "x.gpkg", option, value, says=[option, value])
         self.assert_nothing_but()
 
+    def test_numbers_are_finite_and_in_range_in_every_option(self):
+        for command, option, form in (
+                ("cut --elevation", "--offset", "{}"), ("cut --elevation", "--scale", "{}"),
+                ("render", "--inner-sphere", "{}"), ("render", "--exaggeration", "{}"), ("render", "--west", "{}"),
+                ("render", "--camera", "0,0,{}"), ("render", "--camera", "{},0,1"), ("render", "--bounds", "{},0,10,10"),
+                ("render", "--eye-separation", "{}"), ("render", "--cloud-height", "{}"), ("render", "--detail", "{}"),
+                ("render", "--timeout", "{}"), ("render", "--memory", "{}"), ("render", "--surface-alpha", "{}"),
+                ("render", "--root-span", "{}"), ("preload", "--rate", "{}"), ("preload", "--bbox", "{},0,10,10"),
+                ("preload", "--refresh-older-than", "{}")):
+            for number in ("inf", "-inf", "nan", "1e400", "1e308", "-1e308"):
+                with self.subTest(option=option, number=number):
+                    self.assert_fails(WRONG_USAGE, *command.split(), "missing.png", "-o", "x.gpkg" if command != "render"
+                                      else "x.png", f"{option}={form.format(number)}", says=[option])
+        for command in ("cut", "render", "info"):  # no data may be the lowest number of a double
+            for number in ("inf", "nan", "1e400"):
+                out = () if command == "info" else ("-o", "x.gpkg" if command == "cut" else "x.png")
+                self.assert_fails(WRONG_USAGE, command, "missing.tif", *out, f"--nodata={number}", says=["--nodata"])
+        self.assert_fails(FAILED, "render", "missing.tif", "-o", "x.png", "--nodata=-1.7976931348623157e+308",
+                          says=["missing.tif"])
+        for time in ("nan", "inf", "soon"):
+            self.assert_fails(WRONG_USAGE, "render", "missing.tif", "-o", "x.png", f"--layer-time={time}",
+                              says=["--layer-time", "2024-07-01"])
+
     def test_values_at_the_ends_of_their_ranges_are_no_wrong_usage(self):
         for option, value in [("--camera", "-90,-180,1"), ("--camera", "90,540,1e12,720,90,170"), ("--size", "1x16384"),
                               ("--paper-a", "2"), ("--paper-a", "8"), ("--band", "0.5"), ("--cache-size", "64"),
