@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace terrella {
 namespace {
 
 constexpr const char* kHidden = "***";
 constexpr std::string_view kEndsSentence = ".,:;)";
+constexpr std::string_view kEndsWord = " \t\n\"'<>";
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -60,6 +62,26 @@ std::string redacted_parameter(std::string_view parameter) {
   return is_public(name) || is_placeholder ? std::string(parameter) : std::string(name) + "=" + kHidden;
 }
 
+/// Redacts "user:password@" and the values of parameters in a word that may be a part of an address taken for a path.
+std::string redacted_word(std::string_view word) {
+  std::string shown(word);
+  if (const std::size_t host = shown.find('@'); host != std::string::npos) {
+    const std::size_t user = shown.rfind('/', host) + 1;
+    if (shown.find(':', user) < host) shown.erase(user, host + 1 - user);
+  }
+  const std::string address = std::exchange(shown, {});
+  const std::size_t ending = address.find_last_not_of(std::string(kEndsWord) + std::string(kEndsSentence)) + 1;
+  std::size_t at = std::min(address.find('?'), ending);
+  shown = address.substr(0, at);
+  while (at < ending) {
+    const std::size_t next = std::min(address.find_first_of("&;?", at + 1), ending);
+    const std::string parameter = address.substr(at + 1, next - at - 1);
+    shown += address[at] + (parameter.find('=') == std::string::npos ? parameter : redacted_parameter(parameter));
+    at = next;
+  }
+  return shown + address.substr(ending);
+}
+
 }  // namespace
 
 std::string Url::without_query() const {
@@ -91,14 +113,21 @@ std::string Url::redacted() const {
 std::string redact_addresses(std::string_view text) {
   std::string redacted;
   for (std::size_t at = find_letters(text, "http", 0); at != std::string_view::npos;) {
-    std::size_t end = std::min(text.find_first_of(" \t\n\"'<>", at), text.size());
+    std::size_t end = std::min(text.find_first_of(kEndsWord, at), text.size());
     while (kEndsSentence.find(text[end - 1]) != std::string_view::npos) --end;
     redacted += text.substr(0, at);
     redacted += Url(std::string(text.substr(at, end - at))).redacted();
     text.remove_prefix(end);
     at = find_letters(text, "http", 0);
   }
-  return redacted.append(text);
+  redacted.append(text);
+  std::string shown;
+  for (std::string_view rest = redacted; !rest.empty();) {
+    const std::size_t end = std::min(rest.find_first_of(kEndsWord), rest.size() - 1) + 1;
+    shown += redacted_word(rest.substr(0, end));
+    rest.remove_prefix(end);
+  }
+  return shown;
 }
 
 }  // namespace terrella

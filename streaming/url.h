@@ -28,8 +28,8 @@ class Url {
   std::string text_;
 };
 
-/// Redacts each http and https address in a text, as Url::redacted() does. Use this for messages that repeat user
-/// input. thread: any
+/// Redacts each address in a text, as Url::redacted() does, also one that was taken for a path: one of any scheme, with
+/// spaces or without a scheme ("user:password@host"). Use this for messages that repeat user input. thread: any
 [[nodiscard]] std::string redact_addresses(std::string_view text);
 
 }  // namespace terrella

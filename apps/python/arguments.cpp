@@ -41,7 +41,9 @@ std::string text_of(const CLI::Option& option, py::handle value) {
     return joined;
   }
   if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")());
-  if (PyNumber_Check(value.ptr()) != 0) return py::str(value);
+  const bool is_array = py::hasattr(value, "__array__") && py::hasattr(value, "ndim") &&
+                        !py::isinstance<py::int_>(value) && value.attr("ndim").cast<int>() > 0;
+  if (!is_array && PyNumber_Check(value.ptr()) != 0) return py::str(value);
   throw py::type_error(fmt::format("{} takes text, a number, a path, a tuple or a list, not {}", keyword_of(option),
                                    std::string(py::str(py::type::of(value).attr("__name__")))));
 }

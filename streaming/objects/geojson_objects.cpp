@@ -64,6 +64,9 @@ class FeatureTaker {
                  complain);
   }
 
+  /// Takes a bare geometry: a feature without properties.
+  void take_geometry(const json& geometry) { take({{"type", "Feature"}, {"geometry", geometry}}, 0); }
+
   void complain_of(const std::string& what) {
     if (file_.complaints.size() < kMostComplaints) {
       file_.complaints.push_back(fmt::format("{}: {}", where_, what));
@@ -108,7 +111,7 @@ Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
   }
   if (type == "Feature") return taker.take(document, 0), Done{};
   const Complain complain = [&taker](const std::string& what) { taker.complain_of(what); };
-  add_geometry(document, read_object_style({}, complain), ThirdCoordinate::height_m, file.scene, complain);
+  taker.take_geometry(document);
   return Done{};
 }
 

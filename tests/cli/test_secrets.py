@@ -83,6 +83,19 @@ class SecretsTest(ProgramTest):
 
 
 class ProgramKeepsSecretsTest(SecretsTest):
+    def test_an_address_that_is_taken_for_a_path_is_redacted(self):
+        for address in (f"ftp://{USER}:{PASSWORD}@h/x.tif?token={TOKEN}",
+                        f"http://{USER}:{PASSWORD}@h/x y.tif?token={TOKEN}", f"{USER}:{PASSWORD}@h:80/x"):
+            for command in (("cut", address, "-o", "a.gpkg"), ("merge", address, "-o", "b.gpkg"), ("info", address),
+                            ("info", address, "--json"), ("render", address, "-o", "c.png"),
+                            ("render", NATURAL_EARTH, "--objects", address, "-o", "c.png"),
+                            ("render", NATURAL_EARTH, "--elevation", address, "-o", "c.png"),
+                            ("preload", address, "-o", "d.gpkg"),
+                            ("preload", f"{NOBODY}/{{z}}/{{x}}/{{y}}.jpg", "--polygon", address, "-o", "d.gpkg")):
+                done = self.run_program(*command)
+                self.assertIn(done.returncode, (FAILED, WRONG_USAGE), command)
+                self.assert_no_secret(done.stdout + done.stderr, command)
+
     def test_when_all_is_well(self):
         with servers.misbehaving(self.pyramid, {}) as server:
             source = secret_address(server.template)

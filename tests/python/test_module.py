@@ -1,9 +1,13 @@
 """The module terrella, as a notebook on a machine without a display uses it."""
 
+import contextlib
+import functools
+import http.server
 import inspect
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -15,6 +19,7 @@ import warnings
 for _display in ("DISPLAY", "WAYLAND_DISPLAY"):
     os.environ.pop(_display, None)
 
+import numpy  # noqa: E402
 import terrella  # noqa: E402
 
 PROGRAM = os.environ["TERRELLA"]
@@ -57,6 +62,24 @@ class ModuleTest(unittest.TestCase):
         with self.assertRaises(error) as raised:
             call()
         self.assertEqual(str(raised.exception), done.stderr.splitlines()[0])
+
+
+class Documents(ModuleTest):
+    def test_each_block_of_the_readme_runs(self):
+        blocks = re.findall(r"```python\n(.*?)```", (SOURCE / "apps/python/README.md").read_text(), re.DOTALL)
+        self.assertTrue(blocks)
+        subprocess.run(["convert", "-size", "256x128", "xc:gray", self.folder / "moon.tif"], check=True)
+        handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=NATURAL_EARTH)
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, contextlib.chdir(self.folder):
+            threading.Thread(target=server.serve_forever, daemon=True).start()
+            for block in blocks:
+                here = block.replace("https://tiles.example", f"http://127.0.0.1:{server.server_port}")
+                exec(here.replace("levels=(0, 10)", "levels=(0, 2)"), {})
+            server.shutdown()
+
+    def test_an_array_is_no_source(self):
+        with self.assertRaisesRegex(TypeError, "not ndarray"):
+            terrella.render(numpy.zeros((4, 4)))
 
 
 class Commands(ModuleTest):

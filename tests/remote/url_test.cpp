@@ -32,7 +32,18 @@ TEST(Url, IsRedactedInsideASentence) {
   EXPECT_EQ(redact_addresses("is \"https://me:hush@a.org/x?key=hush\", or http://b.org/y?k=hush: right?"),
             "is \"https://a.org/x?key=***\", or http://b.org/y?k=***: right?");
   EXPECT_EQ(redact_addresses("http, https and file can; http"), "http, https and file can; http");
-  EXPECT_EQ(redact_addresses("a:b@c d?e=f"), "a:b@c d?e=f");
+}
+
+TEST(Url, IsRedactedIfItIsTakenForAPath) {
+  EXPECT_EQ(redact_addresses("ftp://me:hush@h/x.tif?token=hush: no such file"),
+            "ftp://h/x.tif?token=***: no such file");
+  EXPECT_EQ(redact_addresses("/home/ftp:/me:hush@h/x.tif?token=hush"), "/home/ftp:/h/x.tif?token=***");
+  EXPECT_EQ(redact_addresses("http://me:hush@h/x y.tif?LAYER=a&token=hush is no cache"),
+            "http://h/x y.tif?LAYER=a&token=*** is no cache");
+  EXPECT_EQ(redact_addresses("me:hush@h:80/x: cannot be opened"), "h:80/x: cannot be opened");
+  for (const char* same : {"a.tif: what?", "map@2x.png: 12:30 of 4/5/6: x=1", "C:/maps/a@b.gpkg", "is it a=b? yes"}) {
+    EXPECT_EQ(redact_addresses(same), same);
+  }
 }
 
 }  // namespace
