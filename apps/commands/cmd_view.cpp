@@ -168,7 +168,8 @@ int view(const ViewOptions& options) {
   signals.reset();
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
-  const Camera wanted = first_camera(options.scene, *body, (*window)->framebuffer());
+  const Camera wanted =
+      first_camera(options.scene, *body, imagery->tiles->info().grid.bounds, (*window)->framebuffer());
   // Later heights raise the eye with the ground, as everywhere in the window.
   const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
   tell_of_move("view", wanted, start);

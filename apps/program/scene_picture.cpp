@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/scene/bounds_view.h"
 #include "apps/scene/eye_place.h"
 #include "apps/scene/scene_layers.h"
 #include "apps/scene/scene_numbers.h"
@@ -30,9 +31,27 @@ namespace {
 
 constexpr std::size_t kMostReasons = 4;
 
-/// Refuses a picture without any tile, which would look like the planet.
-Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing) {
-  if (stats.tiles_wanted == 0 || stats.imagery_shown) return Done{};
+/// Says where the data of a part of the planet lie; empty for a whole planet.
+std::string where_they_lie(const GeoRect& bounds) {
+  if (!if_a_part(bounds)) return {};
+  return fmt::format(
+      "no data are in this view; they lie from {:.6g}° to {:.6g}° east and {:.6g}° to {:.6g}° north. "
+      "Leave out --camera to look at them",
+      bounds.west.deg(), bounds.east.deg(), bounds.south.deg(), bounds.north.deg());
+}
+
+/// Refuses a picture without any tile, which would look like the planet. A view beside the data only causes a remark.
+Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing, const GeoRect& bounds) {
+  if (stats.imagery_shown) return Done{};
+  const std::string where = where_they_lie(bounds);
+  if (stats.tiles_wanted == 0) {
+    if (!where.empty()) print_message("{}\n", where);
+    return Done{};
+  }
+  const auto is_absent = [](const MissingTile& tile) { return tile.failure.kind == MissingKind::absent; };
+  if (stats.tiles_pending == 0 && !where.empty() && std::ranges::all_of(missing, is_absent)) {
+    return Error{where + "; nothing was written"};
+  }
   std::string message =
       fmt::format("none of the {} tiles of this picture came, nothing was written", stats.tiles_wanted);
   if (stats.tiles_pending > 0) message += "; --timeout gives them longer";
@@ -195,7 +214,7 @@ Globe& ScenePicture::globe() { return *parts_->globe; }
 
 Camera ScenePicture::first_camera() const {
   const SceneOptions& scene = parts_->command.scene;
-  return terrella::first_camera(scene, parts_->body, scene.size);
+  return terrella::first_camera(scene, parts_->body, parts_->base.tiles->info().grid.bounds, scene.size);
 }
 
 bool ScenePicture::has_all_objects() const { return parts_->all_objects; }
@@ -223,7 +242,8 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
   own.check_fills();
   const auto& missing = own.globe->missing_tiles();
-  if (const Status some = check_some_came(stats, missing); !some) return some.error();
+  if (const Status some = check_some_came(stats, missing, own.base.tiles->info().grid.bounds); !some)
+    return some.error();
   std::vector<std::string> thanks = own.globe->attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
   PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};

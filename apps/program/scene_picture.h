@@ -46,7 +46,7 @@ class ScenePicture {
   ScenePicture& operator=(const ScenePicture&) = delete;
 
   [[nodiscard]] Globe& globe();
-  [[nodiscard]] Camera first_camera() const;   ///< the view of --camera, or the whole globe
+  [[nodiscard]] Camera first_camera() const;   ///< see first_camera() of the scene options
   [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).

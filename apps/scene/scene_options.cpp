@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "apps/scene/bounds_view.h"
 #include "apps/scene/option_checks.h"
 #include "apps/scene/place_options.h"
 #include "apps/scene/remote_set_options.h"
@@ -240,12 +241,16 @@ Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
   return said;
 }
 
-Camera first_camera(const SceneOptions& options, const Body& body, Viewport picture) {
+Camera first_camera(const SceneOptions& options, const Body& body, const GeoRect& bounds, Viewport picture) {
   if (options.camera) return *options.camera;
-  Camera camera;
-  camera.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
-  camera.eye.height_m = whole_globe_height_m(body.ellipsoid, camera.fov_y, picture);
-  return camera;
+  Camera whole;
+  whole.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
+  whole.eye.height_m = whole_globe_height_m(body.ellipsoid, whole.fov_y, picture);
+  const auto part = if_a_part(bounds);
+  if (!part) return whole;
+  Camera over = camera_over(*part, body.ellipsoid, whole.fov_y, double(picture.width_px) / picture.height_px);
+  over.eye.height_m = std::min(over.eye.height_m, whole.eye.height_m);
+  return over;
 }
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {

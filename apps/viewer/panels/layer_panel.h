@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
+#include "apps/scene/bounds_view.h"
 #include "apps/scene/scene_numbers.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
@@ -60,9 +61,5 @@ struct LayerSwitch {
 /// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
 /// the planet. thread: any
 [[nodiscard]] std::optional<GeoRect> bounds_of(const ObjectScene& scene);
-/// Returns the bounds, or nullopt if they span most of the planet.
-[[nodiscard]] std::optional<GeoRect> if_a_part(const GeoRect& bounds);
-/// Width from the west edge to the east edge, (0°, 360°].
-[[nodiscard]] Angle width_of(const GeoRect& bounds);
 
 }  // namespace terrella

@@ -17,23 +17,8 @@
 namespace terrella {
 namespace {
 
-constexpr double kLayerRoom = 1.3;         // visible extent relative to a layer's extent
-constexpr double kLegendGap = 0.8;         // in text heights, to the window's edge and the status line
-constexpr double kHighWindow = 18.0;       // in text heights, over the legend
-constexpr double kNearestLayer_m = 2.0e3;  // minimum height, as a single point has no extent
-
-/// Looks straight down on the middle, from a height that shows the whole rectangle.
-Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect) {
-  const double lat_deg = 0.5 * (bounds.south.deg() + bounds.north.deg());
-  const double high = bounds.north.rad() - bounds.south.rad();
-  const double wide = width_of(bounds).rad() * std::cos(Angle::degrees(lat_deg).rad());
-  const double span_m = kLayerRoom * body.a_m() * std::max(high, wide / aspect);
-  Camera camera;
-  camera.fov_y = fov_y;
-  camera.eye = {.lat = Angle::degrees(lat_deg), .lon = bounds.west + 0.5 * width_of(bounds)};
-  camera.eye.height_m = std::max(kNearestLayer_m, 0.5 * span_m / std::tan(0.5 * fov_y.rad()));
-  return camera;
-}
+constexpr double kLegendGap = 0.8;    // in text heights, to the window's edge and the status line
+constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 
 }  // namespace
 

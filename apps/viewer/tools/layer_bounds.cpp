@@ -3,12 +3,9 @@
 #include <vector>
 
 #include "apps/viewer/panels/layer_panel.h"
-#include "geo/longitudes.h"
 
 namespace terrella {
 namespace {
-
-constexpr double kMostOfPlanet_deg = 300.0;
 
 std::vector<Geodetic> places_of(const ObjectScene& scene) {
   std::vector<Geodetic> places;
@@ -25,13 +22,6 @@ std::vector<Geodetic> places_of(const ObjectScene& scene) {
 double wrapped_deg(double lon_deg) { return lon_deg - 360.0 * std::floor((lon_deg + 180.0) / 360.0); }
 
 }  // namespace
-
-Angle width_of(const GeoRect& bounds) { return Angle::degrees(width_deg(bounds)); }
-
-std::optional<GeoRect> if_a_part(const GeoRect& bounds) {
-  if (width_of(bounds).deg() > kMostOfPlanet_deg) return {};
-  return bounds;
-}
 
 // Leaves out the widest gap between neighbours along the parallel.
 std::optional<GeoRect> bounds_of(const ObjectScene& scene) {
