@@ -43,7 +43,8 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
   if (grid.projection != Projection::web_mercator) return Done{};
   const double halvings = std::log2(360.0 / grid.root_span_deg);
   if (halvings < 0.0 || halvings != std::round(halvings)) {
-    return field_error(where, "root_span_deg", grid.root_span_deg, "360 or a half, a quarter … of it in Web Mercator");
+    return field_error(where, "root span (--root-span, in JSON root_span_deg)", grid.root_span_deg,
+                       "360 or a half, a quarter … of it in Web Mercator");
   }
   if (grid.tile_px > kMaxMercatorTilePx) {
     return field_error(where, "tile_px", grid.tile_px, fmt::format("at most {} in Web Mercator", kMaxMercatorTilePx));
@@ -55,10 +56,10 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
 Status check_origin(const TileGrid& grid, const std::string& where) {
   if (begins_at_planet(grid)) return Done{};
   if (!(grid.west_deg <= -180.0 && grid.west_deg > -180.0 - grid.root_span_deg)) {
-    return field_error(where, "origin_west_deg", grid.west_deg, "-180 or less, by under one root_span_deg");
+    return field_error(where, "origin_west_deg", grid.west_deg, "-180 or less, by under one root span");
   }
   if (!(grid.north_deg >= 90.0 && grid.north_deg < 90.0 + grid.root_span_deg)) {
-    return field_error(where, "origin_north_deg", grid.north_deg, "90 or more, by under one root_span_deg");
+    return field_error(where, "origin_north_deg", grid.north_deg, "90 or more, by under one root span");
   }
   const bool crosses = grid.bounds.east < grid.bounds.west && grid.west_deg != -180.0;
   if (grid.projection == Projection::web_mercator || grid.reduced || crosses) {
@@ -73,7 +74,7 @@ Status check_origin(const TileGrid& grid, const std::string& where) {
 
 Status check_grid(const TileGrid& grid, const std::string& where) {
   if (!(grid.root_span_deg >= kMinRootSpanDeg && grid.root_span_deg <= kMaxRootSpanDeg)) {
-    return field_error(where, "root_span_deg", grid.root_span_deg,
+    return field_error(where, "root span (--root-span, in JSON root_span_deg)", grid.root_span_deg,
                        fmt::format("in [{}, {}] degrees", kMinRootSpanDeg, kMaxRootSpanDeg));
   }
   if (grid.tile_px < kMinTilePx || grid.tile_px > kMaxTilePx) {

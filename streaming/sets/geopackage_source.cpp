@@ -121,7 +121,9 @@ Result<std::unique_ptr<TileSource>> open_geopackage(const fs::path& path, bool g
   if (!*is_geopackage) {
     const Result<bool, SqlError> mbtiles = is_mbtiles(*reader);
     if (mbtiles && *mbtiles) return open_mbtiles(path, geodetic_mbtiles);
-    return Error{where + ": an SQLite database, but not a GeoPackage (it has no table gpkg_contents)"};
+    return Error{where +
+                 ": an SQLite database, but neither a GeoPackage (it has no table gpkg_contents) nor MBTiles (it "
+                 "has no tables metadata and tiles)"};
   }
   Result<GeoPackageTiles> tiles = read_geopackage(*reader, where);
   if (!tiles) return tiles.error();

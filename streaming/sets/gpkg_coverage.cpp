@@ -46,10 +46,15 @@ Result<NumberInfo> read_coverage(SqliteReader& reader, const std::string& table,
   const auto refuse = [&](const std::string& why) {
     return Error{fmt::format("{}: the numbers of \"{}\" (gpkg_2d_gridded_coverage_ancillary): {}", where, table, why)};
   };
-  Result<SqliteQuery, SqlError> query = reader.prepare(
-      "SELECT datatype, scale, \"offset\", data_null, uom, grid_cell_encoding, quantity_definition FROM "
-      "gpkg_2d_gridded_coverage_ancillary "
-      "WHERE tile_matrix_set_name = ?1");
+  // The unit may be absent, because early writers had no column for it.
+  const char* kColumns = "datatype, scale, \"offset\", data_null, {}, grid_cell_encoding, quantity_definition";
+  const auto select = [&](const char* unit) {
+    return reader.prepare(
+        fmt::format("SELECT {} FROM gpkg_2d_gridded_coverage_ancillary WHERE tile_matrix_set_name = ?1",
+                    fmt::format(fmt::runtime(kColumns), unit)));
+  };
+  Result<SqliteQuery, SqlError> query = select("uom");
+  if (!query) query = select("NULL");
   if (!query) return refuse(query.error().message);
   query->bind(1, table);
   const Result<bool, SqlError> row = query->step();

@@ -134,9 +134,11 @@ bool lie_over(const TileRange& tiles, const GeoRect& bounds, double span) {
          tiles.last_row <= last(bounds.north.deg() + 90.0);
 }
 
+/// Columns and rows under 0 are on no grid; such tiles are strays and left out.
 std::optional<TileRange> tiles_of_level(SqliteReader& reader, int level) {
   const auto found = numbers<4>(reader, fmt::format("SELECT min(tile_column), max(tile_column), min(tile_row), "
-                                                    "max(tile_row) FROM tiles WHERE zoom_level = {}",
+                                                    "max(tile_row) FROM tiles WHERE zoom_level = {} AND "
+                                                    "tile_column >= 0 AND tile_row >= 0",
                                                     level));
   if (!found) return std::nullopt;
   return TileRange{(*found)[0], (*found)[1], (*found)[2], (*found)[3]};

@@ -3,12 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "streaming/remote/wmts/xml_names.h"
 #include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {
+
+/// Reads a whole number that may be written as 2.0, as servers of NASA's do.
+std::optional<std::int64_t> to_whole(std::string_view text) {
+  const auto number = to_number(text);
+  constexpr double kMost = 9.0e15;
+  if (!number || *number != std::floor(*number) || std::abs(*number) > kMost) return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
 
 constexpr std::size_t kMaxMatrices = 64;
 constexpr std::size_t kMaxNameBytes = 256;
@@ -34,8 +43,8 @@ Result<WmtsMatrix> read_matrix(const pugi::xml_node& node) {
   if (!in_range(width, kMinTilePx, kMaxTilePx) || width != to_integer(text_of(node, "TileHeight"))) {
     return fault(fmt::format("TileWidth and TileHeight are not the same number in [{}, {}]", kMinTilePx, kMaxTilePx));
   }
-  const auto columns = to_integer(text_of(node, "MatrixWidth"));
-  const auto rows = to_integer(text_of(node, "MatrixHeight"));
+  const auto columns = to_whole(text_of(node, "MatrixWidth"));
+  const auto rows = to_whole(text_of(node, "MatrixHeight"));
   if (!in_range(columns, 1, kMaxTilesASide) || !in_range(rows, 1, kMaxTilesASide)) {
     return fault("MatrixWidth or MatrixHeight is not a positive whole number");
   }
