@@ -101,7 +101,7 @@ class FeatureTaker {
 };
 
 /// Checks the rest of a document after its features were taken.
-Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
+Status take_rest(const json& document, FeatureTaker& taker) {
   const std::string type = geojson_type(document);
   if (type.empty()) return Error{"JSON, but no GeoJSON: it has no \"type\"; see RFC 7946"};
   if (type == "FeatureCollection") {
@@ -110,7 +110,6 @@ Status take_rest(const json& document, FeatureTaker& taker, ObjectFile& file) {
     return Done{};
   }
   if (type == "Feature") return taker.take(document, 0), Done{};
-  const Complain complain = [&taker](const std::string& what) { taker.complain_of(what); };
   taker.take_geometry(document);
   return Done{};
 }
@@ -130,7 +129,7 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
       text, {.depth = kJsonLimits.depth, .pieces = kMaxFeatureValues},
       [&taker](std::size_t depth, const std::string& member, json& value) { return taker.keep(depth, member, value); });
   if (!document) return broken(document.error().message + "; a GeoJSON file (RFC 7946) is needed");
-  if (const Status rest = take_rest(*document, taker, file); !rest) return broken(rest.error().message);
+  if (const Status rest = take_rest(*document, taker); !rest) return broken(rest.error().message);
   return file;
 }
 
