@@ -24,7 +24,7 @@ class FirstView(ProgramTest):
 
     def test_a_raster_and_a_tile_set_of_a_part_are_flown_to(self):
         self.write("part.png", png(64, 64, COLOUR))
-        for bounds in ("100,-40,102,-38", "179,60,181,62", "10,-1,10.01,-0.99", "-60,-30,60,30"):
+        for bounds in ("100,-40,102,-38", "178,60,182,62", "10,-1,10.01,-0.99", "-60,-30,60,30"):
             with self.subTest(bounds):
                 place = ("--bounds", bounds)
                 self.assertGreater(self.share("part.png", *place), LEAST_SHARE)
