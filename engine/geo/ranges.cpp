@@ -7,7 +7,7 @@
 namespace terrella {
 namespace {
 
-constexpr double kRounding_deg = 1e-9;  // of an angle in radians and back
+constexpr double kRounding_deg = 1e-9;  // error of an angle in radians and back
 
 }  // namespace
 

@@ -56,7 +56,7 @@ bool GlobeView::Impl::may_set(const char* call, const Status& good) {
 
 Status GlobeView::Impl::may_begin(const char* call, Viewport viewport, glm::ivec2 corner_px) {
   if (!refused) return std::exchange(refused, Done{});
-  const int most_px = globe->renderer->longest_side_px();  // of this driver
+  const int most_px = globe->renderer->longest_side_px();
   const Status good = RangeCheck()
                           .in("the width of the picture", viewport.width_px, 1, most_px, " px")
                           .in("the height of the picture", viewport.height_px, 1, most_px, " px")

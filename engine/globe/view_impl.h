@@ -101,7 +101,7 @@ struct GlobeView::Impl {
   FramePlan last_plan;  ///< the next plan uses its memory again
   FrameStats stats;
   Status status = Done{};   ///< result of the last frame, or why a setting was refused since then
-  Status refused = Done{};  ///< why a setting was refused since the last frame
+  Status refused = Done{};  ///< error of a setting since the last frame
 };
 
 /// The value, or a default one if the call may not read it.

@@ -106,8 +106,8 @@ struct EncodedTile {
   std::function<Result<Numbers, TileFailure>()> make_numbers = {};
 };
 
-/// The network side of a source: fetches tiles that read() does not have locally, without blocking. Sources have a
-/// RequestDesk for it (request_desk.h). thread: any
+/// The network side of a source: fetches tiles that read() does not have locally, without blocking. The sources of
+/// the library share a desk for it. thread: any
 class RemoteTiles {
  public:
   using Done = std::function<void(Result<EncodedTile, TileFailure>)>;

@@ -20,7 +20,7 @@ class SmallGpu {
     here_ = this;
     layers_ = most_layers;
     side_px_ = most_px;
-    glDisable(GL_DEBUG_OUTPUT);  // which would fail the test
+    glDisable(GL_DEBUG_OUTPUT);  // a message of the debug output would fail the test
     epoxy_glTextureStorage2D = [](GLuint name, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
       const bool fits = width <= side_px_ || height <= side_px_;  // tables have one long side
       here_->storage_2d_(name, fits ? levels : 1, fits ? format : GLenum{GL_RGBA32F}, fits ? width : 16384,

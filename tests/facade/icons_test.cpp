@@ -133,14 +133,15 @@ TEST_F(Icons, FaultyPicturesAreRefusedWithACure) {
     return added ? std::string() : added.error().message;
   };
   point.icon.image = std::make_shared<const IconImage>(IconImage{8, 8, {1, 2, 3}});
-  EXPECT_EQ(refused(point), "Globe::add_objects: an icon of 8x8 pixels with 3 bytes; RGBA has 256");
+  EXPECT_EQ(refused(point),
+            "Globe::add_objects: points[0]: its icon: its picture of 8x8 pixels has 3 bytes; give 4 for each pixel");
   point.icon.image = icon_image(257, 1);
-  EXPECT_THAT(refused(point), HasSubstr("257x1 pixels; a side has 1 to 256"));
+  EXPECT_THAT(refused(point), HasSubstr("the width of its picture is 257 px; give 1 px to 256 px"));
   point.icon.image = std::make_shared<const IconImage>();
-  EXPECT_THAT(refused(point), HasSubstr("0x0 pixels"));
+  EXPECT_THAT(refused(point), HasSubstr("the width of its picture is 0 px"));
   point = icon(1, icon_at(0, 0));
   point.size_px = 0.0F;
-  EXPECT_THAT(refused(point), HasSubstr("give a positive size"));
+  EXPECT_THAT(refused(point), HasSubstr("its icon has the size 0; give more"));
   ObjectScene many;
   for (std::size_t k = 0; k <= kMostIcons; ++k) {
     many.points.push_back(icon(k + 1, icon_at(0, 0)));
