@@ -40,7 +40,7 @@ std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
   // The order of two mountains is chance; in this order some of those behind come first.
   if (naive) Experiments::of(*globe).patch_shuffle = 5U;
   if (const auto added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
-  globe->set_camera(first_camera(scene, body, scene.size));
+  globe->set_camera(first_camera(scene, body, GeoRect{}, scene.size));
   const OffscreenTarget target(scene.size);
   globe->render_until_settled(target.framebuffer(), scene.size,
                               std::chrono::steady_clock::now() + std::chrono::minutes(1));
