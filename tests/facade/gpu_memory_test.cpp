@@ -15,8 +15,10 @@ const TileGrid kManyTiles{.tile_px = 16, .max_level = 9};
 /// for more, OpenGL itself runs out of memory: it is asked for a texture of terabytes.
 class SmallGpu {
  public:
-  SmallGpu(int most_layers, int most_px)
-      : storage_2d_(epoxy_glTextureStorage2D), storage_3d_(epoxy_glTextureStorage3D) {
+  SmallGpu(int most_layers, int most_px) {
+    look_up_functions();
+    storage_2d_ = epoxy_glTextureStorage2D;
+    storage_3d_ = epoxy_glTextureStorage3D;
     here_ = this;
     layers_ = most_layers;
     side_px_ = most_px;
@@ -42,10 +44,21 @@ class SmallGpu {
   SmallGpu& operator=(const SmallGpu&) = delete;
 
  private:
+  /// libepoxy looks a function up at its first call, and then replaces the pointer.
+  static void look_up_functions() {
+    GLuint flat = 0, array = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &flat);
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &array);
+    glTextureStorage2D(flat, 1, GL_R8, 1, 1);
+    glTextureStorage3D(array, 1, GL_R8, 1, 1, 1);
+    glDeleteTextures(1, &flat);
+    glDeleteTextures(1, &array);
+  }
+
   static inline SmallGpu* here_ = nullptr;
   static inline int layers_ = 0, side_px_ = 0;
-  PFNGLTEXTURESTORAGE2DPROC storage_2d_;
-  PFNGLTEXTURESTORAGE3DPROC storage_3d_;
+  PFNGLTEXTURESTORAGE2DPROC storage_2d_ = nullptr;
+  PFNGLTEXTURESTORAGE3DPROC storage_3d_ = nullptr;
 };
 
 class GpuMemory : public GlTest {
