@@ -131,6 +131,7 @@ def preload(
     projection: Literal["equirectangular", "equal-area", "web-mercator"] | None = ...,
     jobs: int | None = ...,
     rate: float | None = ...,
+    timeout: float | None = ...,
     retries: int | None = ...,
     refresh_older_than: float | None = ...,
     ca_file: _Path | None = ...,
@@ -151,6 +152,7 @@ def info(
     band: int | None = ...,
     nodata: float | None = ...,
     verify: bool = ...,
+    timeout: float | None = ...,
 ) -> dict[str, Any]: ...
 
 def merge(
