@@ -30,7 +30,7 @@ struct AreaCut {
   std::vector<DrapeTriangle> draped = {};  ///< in place of these two, if the area lies on the ground
   std::vector<SolidVertex> solid = {};     ///< in place of all these, if the area is extruded
   std::vector<LineVertex> outline = {};
-  FillFault fault = FillFault::none;  ///< why there is no fill
+  FillFault fault = FillFault::none;  ///< reason for a missing fill
 };
 
 /// Returns the number of triangles of a fill.
@@ -51,7 +51,7 @@ struct CutJob {
   Ellipsoid ellipsoid;
   Angle step{};  ///< step between the vertices of lines and outlines (line_step())
   std::size_t most_triangles = kMostFillTriangles;
-  std::size_t spare_steps = kSpareFillSteps;  ///< of all areas together (fill_area())
+  std::size_t spare_steps = kSpareFillSteps;  ///< limit for all areas together (fill_area())
   std::vector<Line> lines = {};
   std::vector<Area> areas = {};
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "geo/great_circle.h"
-#include "objects/area_rings.h"
-#include "objects/area_tessellator.h"
+#include "objects/area/area_rings.h"
+#include "objects/area/area_tessellator.h"
 #include "objects/object_shapes.h"
 
 namespace terrella {

@@ -8,6 +8,7 @@
 #include "geo/ellipsoid.h"
 #include "geo/objects.h"
 
+// thread: any, for all of this header
 namespace terrella {
 
 /// Largest span of a line's piece. On Earth its chord lies at most 0.5 m under the surface.
@@ -34,11 +35,11 @@ inline constexpr Angle kLineStep = Angle::degrees(0.045);
 /// length.
 [[nodiscard]] Angle length_of(const std::vector<Geodetic>& places);
 
-/// Why an area has no fill.
+/// Reason why an area has no fill.
 enum class FillFault {
   none,
   invalid,             ///< a ring is invalid (geo/great_circle.h)
-  too_many_triangles,  ///< of all areas of the layer
+  too_many_triangles,  ///< limit for all areas of the layer
   tangled,             ///< too many edges cross or almost lie on each other
 };
 
@@ -48,7 +49,7 @@ struct MissingFill {
   FillFault fault = FillFault::none;
 };
 
-/// What is wrong and what to do about it, for messages.
+/// Text of a fault with its cure, for messages.
 [[nodiscard]] const char* to_text(FillFault fault);
 
 /// Triangles of an area on the ellipsoid, cut at a grid of latitudes and longitudes that is fine enough to follow the

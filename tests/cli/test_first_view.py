@@ -11,7 +11,7 @@ import png as pngs  # noqa: E402
 
 SMALL = ("--size", "96x96", "--unlit")
 COLOUR = (40, 90, 160)
-LEAST_SHARE = 0.3  # of the picture; the room around the data takes 0.4
+LEAST_SHARE = 0.3  # share of the picture; the room around the data takes 0.4
 
 
 class FirstView(ProgramTest):

@@ -313,7 +313,7 @@ TEST(GeoPackage, HostileOnesAreRefused) {
 TEST(GeoPackage, WhatIsNoGeoPackageIsNamed) {
   const ScratchFolder folder;
   run_sql(folder / "other.db", "CREATE TABLE recipes (name)");
-  expect_package_refused(folder / "other.db", "not a GeoPackage");
+  expect_package_refused(folder / "other.db", "neither a GeoPackage");
   run_sql(folder / "a.mbtiles",
           "CREATE TABLE tiles (zoom_level, tile_column, tile_row, tile_data);"
           "CREATE TABLE metadata (name, value)");

@@ -1,4 +1,4 @@
-#include "objects/area_rings.h"
+#include "objects/area/area_rings.h"
 
 #include <algorithm>
 #include <cmath>

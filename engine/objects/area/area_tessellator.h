@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "objects/area_rings.h"
+#include "objects/area/area_rings.h"
 
 class GLUtesselator;
 

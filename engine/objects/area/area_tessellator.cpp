@@ -1,4 +1,4 @@
-#include "objects/area_tessellator.h"
+#include "objects/area/area_tessellator.h"
 
 #include <GL/glu.h>
 
