@@ -197,6 +197,7 @@ TEST_F(GlobeCoverage, AViewThatIsNotANumberIsRefusedAndDrawsNothing) {
       globe->set_camera(camera);
       EXPECT_FALSE(globe->status());
       draw(*globe, kSmall);
+      EXPECT_EQ(picture().at(64, 64), (Color{230, 200, 160})) << "the colour of a target in which nothing is drawn";
     }
   }
   check(*globe, camera_at(10, 20, 1.0e6), kSmall);
