@@ -14,6 +14,7 @@
 #include "apps/bench/report_files.h"
 #include "apps/bench/report_page.h"
 #include "apps/program/commands.h"
+#include "apps/scene/option_checks.h"
 #include "apps/setup/console.h"
 #include "apps/setup/open_imagery.h"
 #include "apps/setup/stop_signals.h"
@@ -174,7 +175,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->type_name("views|polar|accuracy|traverse|stream|objects|stability|growth|features|limb|programs|all");
   sub.add_option("COMMAND", command->commands, "Shell commands that programs measures")->type_name("TEXT ...");
   sub.add_option("--rounds", command->rounds, "Run each COMMAND this many times")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number_in(1, 1000))
       ->capture_default_str();
   sub.add_option("--reset", command->reset, "Run this before each COMMAND and do not measure it");
   sub.add_option("-o,--out", command->out, "Write NAME.csv, NAME.json, NAME.gnuplot and NAME.png to this folder")

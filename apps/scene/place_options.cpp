@@ -21,7 +21,7 @@ Result<CrsBounds> parse_bounds(const std::string& text) {
   bool read = pieces.size() == sides.size();
   for (std::size_t i = 0; read && i < sides.size(); ++i) {
     const auto number = read_number(pieces[i]);
-    read = number && std::isfinite(*number);
+    read = number.has_value();
     sides[i] = number.value_or(0.0);
   }
   if (!read) return Error{fmt::format("{} is not W,S,E,N; write four numbers, as 5,43,17,49", in_quotes(text))};

@@ -73,7 +73,7 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
           "--polar-columns", options.polar_columns,
           "Limit the tiles in a row under a patch that touches a pole, in sets not made by terrella cut; the patch "
           "uses coarser tiles instead of more")
-      ->check(CLI::Range(1, 4096))
+      ->check(whole_number_in(1, 4096))
       ->capture_default_str();
   command
       .add_option("--detail", options.texels_per_pixel,

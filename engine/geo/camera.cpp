@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,12 +24,13 @@ struct CameraField {
   std::optional<double> (*read)(std::string_view text);
 };
 
-constexpr double kAny = std::numeric_limits<double>::max();
+/// Sines of larger angles would mean nothing.
+constexpr double kMostTurn_deg = 1.0e6;
 constexpr std::array<CameraField, 6> kFields = {{
     {"LAT", -90.0, 90.0, "from -90 to 90 degrees, such as 47.4 or 47.4N", 0.0, read_latitude_deg},
-    {"LON", -kAny, kAny, "any finite number of degrees, such as -8.5 or 8.5W", 0.0, read_longitude_deg},
+    {"LON", -kMostTurn_deg, kMostTurn_deg, "from -1e6 to 1e6 degrees, such as -8.5 or 8.5W", 0.0, read_longitude_deg},
     {"ALT", -1.0e12, 1.0e12, "from -1e12 to 1e12 metres, such as 250000 or 250km", 0.0, read_length_m},
-    {"HEADING", -kAny, kAny, "any finite number of degrees", 0.0, read_number},
+    {"HEADING", -kMostTurn_deg, kMostTurn_deg, "from -1e6 to 1e6 degrees", 0.0, read_number},
     {"PITCH", -90.0, 90.0, "from -90 (straight down) to 90 degrees", -90.0, read_number},
     {"FOV", 0.01, 170.0, "from 0.01 to 170 degrees", 40.0, read_number},
 }};

@@ -25,7 +25,7 @@ struct Camera {
 
 /// Reads "LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]" in degrees and metres. The place may also be written as people do,
 /// "30N,20E,1000km". Refuses values that are not finite, |LAT| > 90,
-/// |PITCH| > 90, FOV outside [0.01, 170] and ALT outside ±1e12. The error names the field.
+/// |PITCH| > 90, FOV outside [0.01, 170], ALT outside ±1e12, LON and HEADING outside ±1e6. The error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
 
 /// Picture size in pixels, each ≥ 1; make_view() takes smaller ones for 1.

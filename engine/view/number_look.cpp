@@ -23,8 +23,8 @@ std::uint8_t premultiplied(std::uint8_t channel, std::uint8_t alpha) {
 }  // namespace
 
 Status check_look(const NumberLook& look) {
-  if (!std::isfinite(look.low) || !std::isfinite(look.high) || !(look.low < look.high)) {
-    return Error{"a stretch needs two finite values, the lower one first"};
+  if (!std::isfinite(look.low) || !std::isfinite(look.high - look.low) || !(look.low < look.high)) {
+    return Error{"a stretch needs two finite values with a finite difference, the lower one first"};
   }
   if (look.center && !std::isfinite(*look.center)) return Error{"the centre of a stretch must be finite"};
   const auto& stops = look.colors.stops;

@@ -14,10 +14,13 @@ namespace {
 
 using Kind = StretchRule::Kind;
 
+/// Largest value of a stretch, which is drawn with 32-bit floats.
+constexpr double kMostValue = 1.0e38;
+
 std::optional<std::pair<double, double>> two_numbers(std::string_view first, std::string_view second) {
   const auto a = read_number(first);
   const auto b = read_number(second);
-  return a && b && std::isfinite(*a) && std::isfinite(*b) ? std::optional(std::pair(*a, *b)) : std::nullopt;
+  return a && b ? std::optional(std::pair(*a, *b)) : std::nullopt;
 }
 
 std::optional<std::pair<double, double>> pair_at(std::string_view text, char between) {
@@ -42,7 +45,7 @@ std::optional<StretchRule> read_rule(std::string_view text) {
     return StretchRule{.kind = Kind::sigma, .low = 0.0, .high = *times};
   }
   if (const auto range = pair_at(text, ',')) {
-    if (!(range->first < range->second)) return {};
+    if (!(range->first < range->second) || range->first < -kMostValue || range->second > kMostValue) return {};
     return StretchRule{.kind = Kind::range, .low = range->first, .high = range->second};
   }
   return percentiles(pair_at(text, '-'));
@@ -53,7 +56,8 @@ std::optional<StretchRule> read_rule(std::string_view text) {
 Result<StretchRule> parse_stretch(const std::string& text) {
   if (const auto rule = read_rule(trimmed(text))) return *rule;
   return Error{
-      fmt::format("{} is no stretch; write MIN,MAX with MIN < MAX, minmax, percent:2,98 (or 2-98), sigma:2 or auto",
+      fmt::format("{} is no stretch; write MIN,MAX with MIN < MAX and both within ±1e38, minmax, percent:2,98 (or "
+                  "2-98), sigma:2 or auto",
                   in_quotes(text))};
 }
 

@@ -1,8 +1,10 @@
 """Wrong command lines: exit code 2, a message that names the option, and no other effect."""
 
+import re
+import subprocess
 import unittest
 
-from program import FAILED, NATURAL_EARTH, WRONG_USAGE, ProgramTest, subcommands
+from program import FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE, ProgramTest, subcommands
 
 
 class Program(ProgramTest):
@@ -126,6 +128,32 @@ OUT_OF_RANGE = [
 ]
 
 
+# Types of flags, and of words and names of files: no number can be wrong in them.
+WORDS = {"", "Excludes:", "Needs:", "CRS", "F.geojson", "FILE", "FILE:FILE", "FILE|off", "NAME|FILE", "TEXT", "TILESET", "TILESET[:OPACITY]", "UTC",
+         "'K: V'", "#RRGGBB", "RASTER|FOLDER|TILESET", "OUT.gpkg|DIR", "OUT.gpkg", "CACHE.gpkg"}
+# One form for each place of a number in a type of several.
+FORMS = {"LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]": [",".join("{}" if k == n else "1" for k in range(6)) for n in range(6)],
+         "W,S,E,N": ["{},0,1,1", "0,{},1,1", "0,0,{},1", "0,0,1,{}"], "R,G,B": ["{},2,3", "1,{},3", "1,2,{}"],
+         "MIN,MAX|minmax|percent:2,98|sigma:2": ["{},1", "0,{}", "percent:{},98", "percent:2,{}", "sigma:{}"],
+         "NAME|A,F": ["{},0", "6378137,{}"], "WxH": ["{}x9", "9x{}"], "COLSxROWS": ["{}x1", "1x{}"],
+         "I/N": ["{}/2", "1/{}"], "A-B": ["{}-2", "0-{}"]}
+
+
+def options_of(command):
+    """Each option that the help of a command names, with its type; the type of a flag is empty."""
+    text = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True, check=True).stdout
+    found = re.findall(r"^  (?:-\w,)?(--[\w-]+)(?: ('K: V'|\S+))?", text, re.MULTILINE)
+    return [(option, re.sub(r"=[^=]*$", "", kind)) for option, kind in found if option != "--help"]
+
+
+def bad_values(option, kind):
+    """Values with a number that is none, or that no option allows; nothing but words is left to a choice."""
+    if re.fullmatch(r"[a-z0-9-]+(\|[a-z0-9-]+)+(:.*)?", kind):
+        return ["inf", "1e400"]
+    numbers = ["inf", "-inf", "nan", "1e400"] + (["1e308", "-1e308"] if option != "--nodata" else [])
+    return [form.format(number) for form in FORMS.get(kind, ["{}"]) for number in numbers]
+
+
 class Ranges(ProgramTest):
     def test_render_names_option_value_and_range(self):
         for option, value, also in OUT_OF_RANGE:
@@ -148,18 +176,21 @@ class Ranges(ProgramTest):
         self.assert_nothing_but()
 
     def test_numbers_are_finite_and_in_range_in_every_option(self):
-        for command, option, form in (
-                ("cut --elevation", "--offset", "{}"), ("cut --elevation", "--scale", "{}"),
-                ("render", "--inner-sphere", "{}"), ("render", "--exaggeration", "{}"), ("render", "--west", "{}"),
-                ("render", "--camera", "0,0,{}"), ("render", "--camera", "{},0,1"), ("render", "--bounds", "{},0,10,10"),
-                ("render", "--eye-separation", "{}"), ("render", "--cloud-height", "{}"), ("render", "--detail", "{}"),
-                ("render", "--timeout", "{}"), ("render", "--memory", "{}"), ("render", "--surface-alpha", "{}"),
-                ("render", "--root-span", "{}"), ("preload", "--rate", "{}"), ("preload", "--bbox", "{},0,10,10"),
-                ("preload", "--refresh-older-than", "{}")):
-            for number in ("inf", "-inf", "nan", "1e400", "1e308", "-1e308"):
-                with self.subTest(option=option, number=number):
-                    self.assert_fails(WRONG_USAGE, *command.split(), "missing.png", "-o", "x.gpkg" if command != "render"
-                                      else "x.png", f"{option}={form.format(number)}", says=[option])
+        """Asks the program for its options. A new one is tested by its type, or is listed in WORDS."""
+        seen = set()
+        for command in subcommands():
+            for option, kind in set(options_of(command)) - seen:
+                if kind in WORDS:
+                    continue
+                seen.add((option, kind))
+                for value in bad_values(option, kind):
+                    with self.subTest(command, option=option, value=value):
+                        files = {"merge": ("a.gpkg", "-o", "b.gpkg"), "info": ("a.tif",), "bench": ("views",),
+                                 "view": ("a.tif",)}.get(command, ("a.tif", "-o", "b.gpkg"))
+                        self.assert_fails(WRONG_USAGE, command, *files, f"{option}={value}", says=[option])
+        self.assert_nothing_but()
+
+    def test_no_data_may_be_the_lowest_number_and_times_are_words(self):
         for command in ("cut", "render", "info"):  # no data may be the lowest number of a double
             for number in ("inf", "nan", "1e400"):
                 out = () if command == "info" else ("-o", "x.gpkg" if command == "cut" else "x.png")
