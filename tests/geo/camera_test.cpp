@@ -255,7 +255,7 @@ TEST(ParseCamera, RefusalsNameTheFieldAndItsRange) {
            {"nan,0,1", "LAT is \"nan\", but must be from -90 to 90"},
            {"90.0001,0,1", "LAT is \"90.0001\""},
            {"-91,0,1", "LAT"},
-           {"0,inf,1", "LON is \"inf\", but must be any finite number"},
+           {"0,inf,1", "LON is \"inf\", but must be from -1e6 to 1e6"},
            {"0,20N,1", "LON is \"20N\""},
            {"20E,0,1", "LAT is \"20E\""},
            {"0,20X,1", "LON is \"20X\""},
