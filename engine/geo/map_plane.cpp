@@ -4,6 +4,7 @@ namespace terrella {
 
 MapRing clip_ring(const MapRing& ring, double MapPoint::*axis, double at_deg, double side) {
   MapRing kept;
+  kept.reserve(ring.size() + 2);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const MapPoint& a = ring[i];
     const MapPoint& b = ring[(i + 1) % ring.size()];

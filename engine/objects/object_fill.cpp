@@ -17,11 +17,13 @@ constexpr double kWidestCell_deg = 1.0;
 constexpr double kNarrowestCell_deg = 0.05;
 constexpr double kCellsAcross = 64.0;
 /// Cells with more points are divided: for rings that cross themselves GLU may need the square of this number.
-constexpr std::size_t kMostCellPoints = 128;
+constexpr std::size_t kMostCellPoints = 64;
+/// Cells with more points are divided even if each cut meets most edges.
+constexpr std::size_t kMostUndivided = 512;
 constexpr int kMostDivisions = 40;
 constexpr double kMostArcPieces = 4.0e6;
 /// Steps that an area may take for each of its points and each cell that an edge passes, and steps of a crossing.
-constexpr std::size_t kStepsOfAPoint = 24, kStepsOfACrossing = 64;
+constexpr std::size_t kStepsOfAPoint = 48, kStepsOfACrossing = 64;
 
 struct Block {
   int west, east, south, north;  ///< grid lines
@@ -65,11 +67,11 @@ class AreaFiller {
     return mesh_.fault == FillFault::none;
   }
 
-  void fill_block(const MapRings& rings, const Block& block) {
+  void fill_block(MapRings rings, const Block& block) {
     if (!may_go_on(points_of(rings))) return;
     const MapRect rect = rect_of(block);
     bool full = false;
-    MapRings all = without_whole_turns(rings, rect, full);
+    MapRings all = without_whole_turns(std::move(rings), rect, full);
     if (all.empty()) return full ? add_block(block) : void();
     if (full) all.push_back(ring_of(rect));
     const int wide = block.east - block.west, high = block.north - block.south;
@@ -83,18 +85,21 @@ class AreaFiller {
     }
     const auto axis = along_lon ? &MapPoint::lon_deg : &MapPoint::lat_deg;
     const double at = along_lon ? lon_at(low.east) : lat_at(low.north);
-    fill_block(clipped(all, axis, at, -1.0), low);
-    fill_block(clipped(all, axis, at, 1.0), upper);
+    auto [below, above] = divided(std::move(all), axis, at);
+    fill_block(std::move(below), low);
+    fill_block(std::move(above), upper);
   }
 
-  void fill_cell(const MapRings& rings, const MapRect& rect, int division) {
+  void fill_cell(MapRings rings, const MapRect& rect, int division) {
     if (!may_go_on(points_of(rings))) return;
     if (points_of(rings) <= kMostCellPoints) return tessellate(rings);
     bool full = false;
-    MapRings all = without_pairs(without_whole_turns(rings, rect, full));
+    MapRings all = without_pairs(without_whole_turns(std::move(rings), rect, full));
     if (full) all.push_back(ring_of(rect));
     if (points_of(all) <= kMostCellPoints) return tessellate(all);
-    if (division < kMostDivisions) return divide_cell(all, rect, division);
+    const Cut cut = best_cut(all, rect);
+    if (points_of(all) <= kMostUndivided && cut.edges > 0.25 * double(points_of(all))) return tessellate(all);
+    if (division < kMostDivisions) return divide_cell(std::move(all), rect, cut.along_lon, division);
     mesh_.fault = FillFault::tangled;
   }
 
@@ -105,9 +110,31 @@ class AreaFiller {
     may_go_on(kStepsOfACrossing * (tessellator_.crossings() - before));
   }
 
-  void divide_cell(const MapRings& rings, const MapRect& rect, int division) {
+  struct Cut {
+    bool along_lon;
+    double edges;  ///< number of edges that the cut meets, about
+  };
+
+  /// The cut through a cell that meets fewer edges: a cut along a bundle of edges separates them, a cut across makes
+  /// twice as many. Edges on the cell's border do not count.
+  static Cut best_cut(const MapRings& rings, const MapRect& r) {
+    double along_lon = 0.0, along_lat = 0.0;
+    for (const MapRing& ring : rings) {
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const MapPoint &a = ring[k], &b = ring[(k + 1) % ring.size()];
+        if (a.lat_deg != b.lat_deg || (a.lat_deg != r.south_deg && a.lat_deg != r.north_deg))
+          along_lon += std::abs(b.lon_deg - a.lon_deg);
+        if (a.lon_deg != b.lon_deg || (a.lon_deg != r.west_deg && a.lon_deg != r.east_deg))
+          along_lat += std::abs(b.lat_deg - a.lat_deg);
+      }
+    }
+    const double by_meridian = along_lon / (r.east_deg - r.west_deg),
+                 by_parallel = along_lat / (r.north_deg - r.south_deg);
+    return {by_meridian <= by_parallel, std::min(by_meridian, by_parallel)};
+  }
+
+  void divide_cell(MapRings rings, const MapRect& rect, bool along_lon, int division) {
     MapRect low = rect, upper = rect;
-    const bool along_lon = division % 2 == 0;
     if (along_lon) {
       low.east_deg = upper.west_deg = 0.5 * (rect.west_deg + rect.east_deg);
     } else {
@@ -115,8 +142,9 @@ class AreaFiller {
     }
     const auto axis = along_lon ? &MapPoint::lon_deg : &MapPoint::lat_deg;
     const double at = along_lon ? low.east_deg : low.north_deg;
-    fill_cell(clipped(rings, axis, at, -1.0), low, division + 1);
-    fill_cell(clipped(rings, axis, at, 1.0), upper, division + 1);
+    auto [below, above] = divided(std::move(rings), axis, at);
+    fill_cell(std::move(below), low, division + 1);
+    fill_cell(std::move(above), upper, division + 1);
   }
 
   void add_block(const Block& block) {

@@ -95,6 +95,23 @@ PolygonObject nested_rings(int n) {
   return rings;
 }
 
+/// Squares whose edges almost lie on each other.
+PolygonObject near_equal_rings(int n) {
+  PolygonObject rings;
+  for (int k = 1; k <= n; ++k) rings.rings.push_back(square(-1e-6 * k, -1e-6 * k, 1.0 + 2e-6 * k));
+  return rings;
+}
+
+/// Slanted strips whose edges almost lie on each other.
+PolygonObject slanted(int n) {
+  PolygonObject rings;
+  for (int k = 0; k < n; ++k) {
+    const double a = 2e-6 * k;
+    rings.rings.push_back({at(0, a), at(1, 1 + a), at(1, 1 + a + 1e-6), at(0, a + 1e-6)});
+  }
+  return rings;
+}
+
 PolygonObject holes(int n) {
   PolygonObject area{.rings = {square(0.0, 0.0, 10.0)}};
   const int across = static_cast<int>(std::sqrt(n));
@@ -131,6 +148,15 @@ TEST(ObjectShapes, TheCostOfAFillGrowsWithItsLengthEvenIfRingsAreEqualOrCross) {
     EXPECT_LE(steps(401), kMostGrowth * steps(101));
     EXPECT_GT(steps(401), 0.0);
   }
+}
+
+TEST(ObjectShapes, EdgesThatAlmostLieOnEachOtherAreSeparatedBySteps) {
+  for (PolygonObject (*shape)(int) : {near_equal_rings, slanted}) {
+    EXPECT_EQ(fill_area(shape(101), earth().ellipsoid, kMostFillTriangles).fault, FillFault::none);
+  }
+  const FillMesh few = fill_area(zigzag(1601), earth().ellipsoid, kMostFillTriangles);
+  const FillMesh many = fill_area(zigzag(6401), earth().ellipsoid, kMostFillTriangles);
+  EXPECT_LT(double(many.steps), 8.0 * double(few.steps)) << "four times as many edges";
 }
 
 TEST(ObjectShapes, EqualRingsCancelEachOther) {

@@ -59,6 +59,12 @@ void shorten(MapRing& ring) {
   ring = std::move(left);
 }
 
+void add_clipped(MapRings& parts, const MapRing& ring, double MapPoint::*axis, double at_deg, double side) {
+  MapRing part = clip_ring(ring, axis, at_deg, side);
+  shorten(part);
+  if (part.size() >= 3) parts.push_back(std::move(part));
+}
+
 /// Gives equal rings the same first point and the same direction.
 void normalize(MapRing& ring) {
   shorten(ring);
@@ -78,29 +84,33 @@ MapRing ring_of(const MapRect& r) {
   return {{r.west_deg, r.south_deg}, {r.east_deg, r.south_deg}, {r.east_deg, r.north_deg}, {r.west_deg, r.north_deg}};
 }
 
-MapRings clipped(const MapRings& rings, double MapPoint::*axis, double at_deg, double side) {
-  MapRings parts;
-  for (const MapRing& ring : rings) {
-    MapRing part = clip_ring(ring, axis, at_deg, side);
-    shorten(part);
-    if (part.size() >= 3) parts.push_back(std::move(part));
+std::pair<MapRings, MapRings> divided(MapRings rings, double MapPoint::*axis, double at_deg) {
+  std::pair<MapRings, MapRings> parts;
+  for (MapRing& ring : rings) {
+    const auto [low, high] = std::ranges::minmax(ring, {}, axis);
+    if (high.*axis <= at_deg) {
+      parts.first.push_back(std::move(ring));
+    } else if (low.*axis >= at_deg) {
+      parts.second.push_back(std::move(ring));
+    } else {
+      add_clipped(parts.first, ring, axis, at_deg, -1.0);
+      add_clipped(parts.second, ring, axis, at_deg, 1.0);
+    }
   }
   return parts;
 }
 
-MapRings without_whole_turns(const MapRings& rings, const MapRect& rect, bool& full) {
+MapRings without_whole_turns(MapRings rings, const MapRect& rect, bool& full) {
   const double whole = (rect.east_deg - rect.west_deg) * (rect.north_deg - rect.south_deg);
-  MapRings open;
-  for (const MapRing& ring : rings) {
-    const double turns = area(ring) / whole;
+  std::erase_if(rings, [&](const MapRing& ring) {
     constexpr double kRounding = 1e-9;
-    if (!is_on_border(ring, rect) || std::abs(turns - std::round(turns)) > kRounding) {
-      open.push_back(ring);
-    } else if (std::fmod(std::round(std::abs(turns)), 2.0) == 1.0) {
-      full = !full;
-    }
-  }
-  return open;
+    if (!is_on_border(ring, rect)) return false;
+    const double turns = area(ring) / whole;
+    if (std::abs(turns - std::round(turns)) > kRounding) return false;
+    if (std::fmod(std::round(std::abs(turns)), 2.0) == 1.0) full = !full;
+    return true;
+  });
+  return rings;
 }
 
 MapRings without_pairs(MapRings rings) {
