@@ -23,6 +23,19 @@ Result<LevelRange> levels_of(const PreloadCommand& command, const TileGrid& grid
   return *command.levels;
 }
 
+/// Refuses polygons whose plan would take many minutes.
+Status check_edges(const Region& region, const TileGrid& grid, const LevelRange& levels) {
+  constexpr double kMostSteps = 1.0e9;
+  int finest = levels.last;
+  const double steps = region.edge_steps(tile_span_deg(grid, finest));
+  if (steps <= kMostSteps) return Done{};
+  while (finest > 0 && region.edge_steps(tile_span_deg(grid, finest)) > kMostSteps) --finest;
+  return Error{
+      fmt::format("--polygon: its edges pass {:.1g} tiles of level {}, too many to plan; simplify the polygons, "
+                  "remove edges that lie on each other, or end --levels at {}",
+                  steps, levels.last, finest)};
+}
+
 Result<Region> region_of(const PreloadCommand& command) {
   Region region;
   for (const GeoRect& box : command.boxes) region.add_box(box);
@@ -65,6 +78,7 @@ Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command
   }
   auto region = region_of(command);
   if (!region) return region.error();
+  if (const Status few = check_edges(*region, info.grid, *levels); !few) return few.error();
   return std::shared_ptr<const TilePlan>(
       plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last));
 }

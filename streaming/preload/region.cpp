@@ -1,6 +1,7 @@
 #include "streaming/preload/region.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -82,6 +83,14 @@ void Region::add(const Region& other) {
     segments_.push_back({segment.a, segment.b, polygons_ + segment.polygon});
   }
   polygons_ += other.polygons_;
+}
+
+double Region::edge_steps(double tile_span_deg) const {
+  double steps = 0.0;
+  for (const auto& [a, b, polygon] : segments_) {
+    steps += 1.0 + (std::abs(b.lon_deg - a.lon_deg) + std::abs(b.lat_deg - a.lat_deg)) / tile_span_deg;
+  }
+  return steps;
 }
 
 Region::Sight Region::whole() const {

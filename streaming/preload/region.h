@@ -21,6 +21,10 @@ class Region {
   void add_polygon(const std::vector<MapRing>& rings);
   void add(const Region& other);
 
+  /// Number of tiles of this span that the edges of polygons pass, each counted for each edge, about. A walk down to
+  /// these tiles takes so many steps.
+  [[nodiscard]] double edge_steps(double tile_span_deg) const;
+
   [[nodiscard]] bool empty() const { return boxes_.empty() && segments_.empty(); }
 
   /// The region as a rectangle sees it: the segments that touch the rectangle, in order, and the polygons that contain

@@ -57,6 +57,14 @@ class Objects(ProgramTest):
         self.assertTrue((self.folder / "out.png").exists())
         return done
 
+    def test_a_bundle_of_edges_that_takes_too_long_to_plan_is_refused_at_once(self):
+        rings = [[[a, a], [5 - a, a], [5 - a, 5 - a], [a, 5 - a], [a, a]] for a in (-1e-7 * k for k in range(2000))]
+        self.write("bundle.geojson", json.dumps({"type": "Polygon", "coordinates": rings}).encode())
+        plan = ("preload", "http://127.0.0.1:9/{z}/{x}/{y}.png", "--polygon", "bundle.geojson", "--dry-run", "--offline",
+                "-o", "x.gpkg", "--levels")
+        self.assert_fails(FAILED, *plan, "24-24", says=["--polygon", "level 24", "simplify", "end --levels at 22"])
+        self.assert_done(*plan, "0-8")
+
     def test_a_tangled_polygon_is_named_and_equal_rings_are_drawn(self):
         ring = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
         self.write("equal.geojson", collection(feature("Polygon", [ring] * 501)))
