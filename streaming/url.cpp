@@ -42,6 +42,13 @@ bool has_good_port(std::string_view host) {
   return colon == std::string_view::npos || host.find_first_not_of("0123456789", colon + 1) == std::string_view::npos;
 }
 
+/// True if a host with a port may be a user and the begin of a password with "/": the path has an '@', and the host is
+/// no name of the Internet.
+bool may_be_user(std::string_view host, std::string_view path) {
+  const bool is_name = host.find_first_of(".]") != std::string_view::npos || host.starts_with("localhost:");
+  return !is_name && host.find(':') != std::string_view::npos && path.find('@') != std::string_view::npos;
+}
+
 /// Parameters of WMTS and WMS requests (OGC 07-057, 06-042) select the picture and are not secret.
 bool is_public(std::string_view parameter) {
   constexpr std::string_view kPublic[] = {
@@ -63,10 +70,13 @@ std::string redacted_parameter(std::string_view parameter) {
 }
 
 /// Redacts "user:password@" and the values of parameters in a word that may be a part of an address taken for a path.
-std::string redacted_word(std::string_view word) {
+std::string redacted_path(std::string_view word) {
   std::string shown(word);
-  if (const std::size_t host = shown.find('@'); host != std::string::npos) {
-    const std::size_t user = shown.rfind('/', host) + 1;
+  if (const std::size_t host = shown.rfind('@'); host != std::string::npos) {
+    const std::size_t scheme = shown.find(":/");
+    const std::size_t user = scheme < host          ? shown.find_first_not_of('/', scheme + 1)
+                             : shown.front() == '/' ? shown.rfind('/', host) + 1
+                                                    : 0;
     if (shown.find(':', user) < host) shown.erase(user, host + 1 - user);
   }
   const std::string address = std::exchange(shown, {});
@@ -82,6 +92,15 @@ std::string redacted_word(std::string_view word) {
   return shown + address.substr(ending);
 }
 
+/// Redacts a word with what ends it: an address of a server, or what was taken for a path.
+std::string redacted_word(std::string_view word) {
+  const std::size_t at = std::min(find_letters(word, "http", 0), word.size());
+  const std::size_t end = word.find_last_not_of(std::string(kEndsWord) + std::string(kEndsSentence)) + 1;
+  if (at >= end) return redacted_path(word);
+  return redacted_path(word.substr(0, at)) + Url(std::string(word.substr(at, end - at))).redacted() +
+         std::string(word.substr(end));
+}
+
 }  // namespace
 
 std::string Url::without_query() const {
@@ -93,7 +112,8 @@ std::string Url::without_query() const {
   std::string_view host = shown.substr(authority, path - authority);
   host.remove_prefix(host.rfind('@') + 1);
   const std::string scheme(shown.substr(0, authority));
-  return has_good_port(host) ? scheme + std::string(host) + std::string(shown.substr(path)) : scheme + kHidden;
+  const bool is_host = has_good_port(host) && !may_be_user(host, shown.substr(path));
+  return is_host ? scheme + std::string(host) + std::string(shown.substr(path)) : scheme + kHidden;
 }
 
 std::string Url::redacted() const {
@@ -111,21 +131,11 @@ std::string Url::redacted() const {
 }
 
 std::string redact_addresses(std::string_view text) {
-  std::string redacted;
-  for (std::size_t at = find_letters(text, "http", 0); at != std::string_view::npos;) {
-    std::size_t end = std::min(text.find_first_of(kEndsWord, at), text.size());
-    while (kEndsSentence.find(text[end - 1]) != std::string_view::npos) --end;
-    redacted += text.substr(0, at);
-    redacted += Url(std::string(text.substr(at, end - at))).redacted();
-    text.remove_prefix(end);
-    at = find_letters(text, "http", 0);
-  }
-  redacted.append(text);
   std::string shown;
-  for (std::string_view rest = redacted; !rest.empty();) {
-    const std::size_t end = std::min(rest.find_first_of(kEndsWord), rest.size() - 1) + 1;
-    shown += redacted_word(rest.substr(0, end));
-    rest.remove_prefix(end);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(kEndsWord), text.size() - 1) + 1;
+    shown += redacted_word(text.substr(0, end));
+    text.remove_prefix(end);
   }
   return shown;
 }

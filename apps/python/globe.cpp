@@ -26,6 +26,7 @@
 #include "apps/setup/console.h"
 #include "apps/setup/stop_signals.h"
 #include "streaming/objects/geojson_objects.h"
+#include "streaming/url.h"
 
 namespace terrella {
 namespace {
@@ -139,7 +140,7 @@ class PythonGlobe {
       for (const py::handle part : value) text += (text.empty() ? "" : ",") + std::string(py::str(part));
     }
     const Result<Camera> parsed = parse_camera(text);
-    if (!parsed) throw py::value_error("camera: " + parsed.error().message);
+    if (!parsed) throw py::value_error(redact_addresses("camera: " + parsed.error().message));
     camera_ = *parsed;
   }
   [[nodiscard]] Viewport size() const { return command_.scene.size; }

@@ -5,6 +5,7 @@
 #include "apps/program/commands.h"
 #include "apps/setup/console.h"
 #include "apps/setup/stop_signals.h"
+#include "streaming/url.h"
 
 namespace terrella {
 namespace {
@@ -65,7 +66,7 @@ void conclude(const Said& said) {
 }
 
 void raise_error(const std::string& message) {
-  PyErr_SetString(g_error, message.c_str());
+  PyErr_SetString(g_error, redact_addresses(message).c_str());
   throw py::error_already_set();
 }
 

@@ -122,6 +122,18 @@ class Commands(ModuleTest):
         with self.assertRaises(TypeError):
             terrella.render(camera=object())
 
+    def test_errors_show_no_secrets_of_addresses(self):
+        for address in "ftp://me:a/hush@h/x.tif?key=hush", "me:hush@h:80/x", "http://me:hush@h/x y.tif?key=hush":
+            globe = terrella.Globe(size=SIZE)
+            for call in (lambda: terrella.render(address), lambda: terrella.info(address), lambda: terrella.Globe(address),
+                         lambda: terrella.merge([address], output=self.folder / "m.gpkg"),
+                         lambda: terrella.preload(address, output=self.folder / "p.gpkg"),
+                         lambda: terrella.render(camera=address), lambda: globe.add_imagery(address),
+                         lambda: globe.add_objects(address), lambda: setattr(globe, "camera", address)):
+                with self.assertRaises((terrella.Error, ValueError)) as caught:
+                    call()
+                self.assertNotIn("hush", str(caught.exception))
+
     def test_what_is_missing_is_a_warning(self):
         tiles = self.folder / "tiles"
         shutil.copytree(NATURAL_EARTH, tiles)

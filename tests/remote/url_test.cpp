@@ -22,7 +22,8 @@ TEST(Url, ShowsWhatIsNoSecret) {
 // A password that is not percent-encoded makes an address that cannot be read, and is told in the message about it.
 TEST(Url, ShowsNoPartOfAPasswordThatBreaksTheAddress) {
   for (const char* text : {"https://me:hu/sh@a.org/x", "https://me:hu?sh@a.org/x", "https://me:hu#sh@a.org/x",
-                           "https:/me:hush@a.org/x", "HTTP:me:hush@a.org/x", R"({"url": "https://me:hush@a.org/x"})"}) {
+                           "https://hush:12/sh@a.org/x", "https:/me:hush@a.org/x", "HTTP:me:hush@a.org/x",
+                           R"({"url": "https://me:hush@a.org/x"})"}) {
     EXPECT_EQ(Url(text).redacted().find("hu"), std::string::npos) << Url(text).redacted();
     EXPECT_EQ(Url(text).without_query().find("sh"), std::string::npos) << Url(text).without_query();
   }
@@ -41,6 +42,9 @@ TEST(Url, IsRedactedIfItIsTakenForAPath) {
   EXPECT_EQ(redact_addresses("http://me:hush@h/x y.tif?LAYER=a&token=hush is no cache"),
             "http://h/x y.tif?LAYER=a&token=*** is no cache");
   EXPECT_EQ(redact_addresses("me:hush@h:80/x: cannot be opened"), "h:80/x: cannot be opened");
+  EXPECT_EQ(redact_addresses("ftp://me:hu/sh@h/x.tif, me:hu/sh@h/x"), "ftp://h/x.tif, h/x");
+  EXPECT_EQ(redact_addresses("/home/s3:/me:hu/s@h@h/x.tif"), "/home/s3:/h/x.tif");
+  EXPECT_EQ(redact_addresses("(http://localhost:80/{y}@2x.png)."), "(http://localhost:80/{y}@2x.png).");
   for (const char* same : {"a.tif: what?", "map@2x.png: 12:30 of 4/5/6: x=1", "C:/maps/a@b.gpkg", "is it a=b? yes"}) {
     EXPECT_EQ(redact_addresses(same), same);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace terrella {
 namespace {
 
@@ -19,6 +21,19 @@ TEST(Messages, AnActionWaitsForAFrameWithItsMessage) {
     messages.end_frame();
     EXPECT_EQ(acted, times);
     EXPECT_FALSE(messages.has_waiting());
+  }
+}
+
+TEST(Messages, ShowNoSecretsOfAddresses) {
+  Messages messages;
+  for (const char* address : {"http://me:hush@h/x?key=hush", "ftp://me:a/hush@h/x.tif?key=hush", "me:hush@h:80/x"}) {
+    messages.say(std::string(address) + ": no answer");
+    EXPECT_EQ(messages.text().find("hush"), std::string::npos) << messages.text();
+    messages.report(address);
+    messages.report(address);
+    EXPECT_EQ(messages.text().find("hush"), std::string::npos) << messages.text();
+    EXPECT_EQ(std::ranges::count(messages.text(), '\n'), 1) << messages.text();
+    messages = {};
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "streaming/url.h"
+
 namespace terrella {
 namespace {
 
@@ -11,24 +13,24 @@ constexpr std::chrono::milliseconds kCharacterTime(50);  // reading time per cha
 
 }  // namespace
 
-void Messages::say(std::string text) {
+void Messages::say(const std::string& text) {
   const auto time = kMessageTime + kCharacterTime * text.size();
-  say(std::move(text), time);
+  say(text, time);
 }
 
-void Messages::say(std::string text, Clock::duration time) {
-  text_ = std::move(text);
+void Messages::say(const std::string& text, Clock::duration time) {
+  text_ = redact_addresses(text);
   until_ = Clock::now() + time;
 }
 
-void Messages::say_then(std::string text, std::function<void()> act) {
-  say(std::move(text));
+void Messages::say_then(const std::string& text, std::function<void()> act) {
+  say(text);
   act_ = std::move(act);
 }
 
 void Messages::report(const std::string& problem) {
   const bool more = !problems_.empty() && text_ == problems_;
-  problems_ = more ? problems_ + "\n" + problem : problem;
+  problems_ = more ? problems_ + "\n" + redact_addresses(problem) : redact_addresses(problem);
   say(problems_);
 }
 

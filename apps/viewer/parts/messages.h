@@ -11,10 +11,11 @@ class Messages {
  public:
   using Clock = std::chrono::steady_clock;
 
-  void say(std::string text);
-  void say(std::string text, Clock::duration time);
+  /// Secrets of addresses in a text are not shown (streaming/url.h).
+  void say(const std::string& text);
+  void say(const std::string& text, Clock::duration time);
   /// Shows a message, and calls `act` once a frame shows the message: for an action whose next frame takes seconds.
-  void say_then(std::string text, std::function<void()> act);
+  void say_then(const std::string& text, std::function<void()> act);
   [[nodiscard]] bool has_waiting() const { return act_ != nullptr; }
   /// Adds a line to the message if the last call reported a problem too; else replaces the message.
   void report(const std::string& problem);
