@@ -21,8 +21,8 @@ namespace terrella {
 
 /// Arrangement of the parts of one picture. Parts are given in rows from the north-west.
 struct MosaicGrid {
-  int columns = 1;
-  int rows = 1;
+  int columns = 1;  ///< [1, 100000]
+  int rows = 1;     ///< [1, 100000]
 };
 
 /// Makes the cut treat the picture as heights instead of colours.
@@ -32,20 +32,20 @@ struct MosaicGrid {
 /// 32-bit floats are metres: `scale` and `offset` define how tiles store them. By default 65535 numbers span all
 /// heights.
 struct CutElevation {
-  std::optional<double> scale = {};
-  std::optional<double> offset = {};
+  std::optional<double> scale = {};   ///< [-1e9, 1e9], not 0
+  std::optional<double> offset = {};  ///< [-1e9, 1e9]
   std::optional<double> nodata = {};  ///< picture value that means "no height"; NaN always does
 };
 
 /// Makes the cut keep the numbers of one band (streaming/cut/README.md, "Numbers").
 struct CutNumbers {
-  int band = 1;                       ///< counted from 1
+  int band = 1;                       ///< counted from 1, [1, 65535]
   std::optional<double> nodata = {};  ///< value that means "no data"; default: as stated by the picture
 };
 
 /// Makes the cut show three bands as red, green and blue, each stretched by itself (8-bit tiles).
 struct CutBands {
-  std::array<int, 3> bands{1, 2, 3};                    ///< counted from 1
+  std::array<int, 3> bands{1, 2, 3};                    ///< counted from 1, [1, 65535]
   std::array<std::optional<StretchRule>, 3> stretch{};  ///< none: 8 bits as they are, else percent:2,98
   std::optional<double> nodata = {};                    ///< transparent where all three bands have it
 };
@@ -54,8 +54,8 @@ struct CutBands {
 
 /// One of `count` machines that cut the same picture together.
 struct CutShard {
-  int index = 1;  ///< starts at 1
-  int count = 1;
+  int index = 1;  ///< [1, count]
+  int count = 1;  ///< [1, 100000]
 };
 
 /// A picture that is no local file, such as a TIFF on a server.
@@ -82,15 +82,15 @@ struct CutWatch {
   std::function<void(const CutTile& tile)> tile_made;
   /// Row of the picture on its grid, as RGBA8, for every row_step-th row. thread: the cut's
   std::function<void(std::int64_t row, std::span<const std::uint8_t> rgba)> row_read;
-  std::int64_t row_step = 1;
+  std::int64_t row_step = 1;  ///< positive
 };
 
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
   std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
-  int tile_px = 256;
-  int quality = 85;
+  int tile_px = 256;                            ///< even, [16, 4096]
+  int quality = 85;                             ///< [1, 100]
   std::optional<ImageFormat>
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
@@ -102,11 +102,11 @@ struct CutOptions {
   std::optional<GeoRect> bounds{};
   std::string crs{};                         ///< the picture's coordinate system, any text for PROJ; default: as stated
   std::optional<CrsBounds> crs_bounds = {};  ///< instead of `bounds`: in units of `crs`, or degrees without `crs`
-  std::optional<double> west_deg = {};       ///< a picture of the whole planet begins at this longitude
-  Projection projection = Projection::equirectangular;
+  std::optional<double> west_deg = {};       ///< a picture of the whole planet begins at this longitude, [-360, 360]
+  Projection projection = Projection::equirectangular;  ///< or equal_area
   std::optional<LatitudeKind> latitude = {};  ///< counted by the rows; default: as the picture states, else graphic
   std::string name{}, attribution{}, body{};
-  int jobs = 0;                        ///< number of encoder threads; 0: one for each core
+  int jobs = 0;                        ///< number of encoder threads, [0, 256]; 0: one for each core
   std::optional<CutShard> shard = {};  ///< cuts only this part, into OUTPUT.shard-I-of-N
   bool join = false;                   ///< builds the output from the finished shards beside it
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures

@@ -29,6 +29,11 @@ class RangeCheck {
   RangeCheck& finite(std::string_view name, double value) {
     return value >= -kMost && value <= kMost ? *this : refuse(name, value, "", -kMost, kMost, "");
   }
+  /// The value is one of an enumeration that ends with `last`.
+  template <class Enum>
+  RangeCheck& known(std::string_view name, Enum value, Enum last) {
+    return in(name, static_cast<int>(value), 0, static_cast<int>(last));
+  }
   /// `holds` is true; else `wrong` says what is wrong, and what to give.
   RangeCheck& that(bool holds, std::string_view wrong) {
     if (!holds && !wrong_) wrong_ = Error{std::string(wrong)};

@@ -42,6 +42,9 @@ Status check_exaggeration(double exaggeration) {
 Status check_options(const GlobeOptions& o) {
   return RangeCheck()
       .part("body", check_ellipsoid(o.body.ellipsoid))
+      .known("texturing", o.texturing, Texturing::automatic)
+      .known("depth", o.depth, DepthMode::standard)
+      .known("gl_contract", o.gl_contract, GlContract::leave)
       .in("polar_columns", o.polar_columns, 1, 4096)
       .in("texels_per_pixel", o.texels_per_pixel, 0.125, 8.0)
       .in("max_error_px", o.max_error_px, 0.01, 16.0)

@@ -67,6 +67,7 @@ class Checker {
     const bool has_icon = point.icon.image != nullptr;
     return RangeCheck()
         .part("its place", check_place(point.place))
+        .known("its heights", point.heights, HeightMode::relative_to_ground)
         .in("its radius", point.radius_m, 0.0, kMostHeight_m, " m")
         .in("its size", point.size_px, 0.0, kMostSize_px, " px")
         .that(!has_icon || point.size_px > 0.0F, "its icon has the size 0; give more")
@@ -78,19 +79,22 @@ class Checker {
   Status operator()(const LineObject& line) {
     return RangeCheck()
         .part("a place", check_places(line.places))
+        .known("its heights", line.heights, HeightMode::relative_to_ground)
         .in("its width", line.width_px, 0.0, kMostSize_px, " px")
         .result();
   }
   Status operator()(const PolygonObject& polygon) {
     RangeCheck check;
     for (const auto& ring : polygon.rings) check.part("a place", check_places(ring));
-    return check.in("the width of its stroke", polygon.stroke_width_px, 0.0, kMostSize_px, " px")
+    return check.known("its heights", polygon.heights, HeightMode::relative_to_ground)
+        .in("the width of its stroke", polygon.stroke_width_px, 0.0, kMostSize_px, " px")
         .in("its extrude_m", polygon.extrude_m, -kMostHeight_m, kMostHeight_m, " m")
         .result();
   }
   Status operator()(const LabelObject& label) {
     return RangeCheck()
         .part("its place", check_place(label.place))
+        .known("its heights", label.heights, HeightMode::relative_to_ground)
         .in("its size", label.size_px, 0.0, kMostSize_px, " px")
         .in("its radius", label.radius_m, 0.0, kMostHeight_m, " m")
         .that(!std::isnan(label.priority), "its priority is nan; give a number")
@@ -99,6 +103,7 @@ class Checker {
   Status operator()(const MeshObject& mesh) {
     return RangeCheck()
         .part("its place", check_place(mesh.place))
+        .known("its heights", mesh.heights, HeightMode::relative_to_ground)
         .finite("its heading", mesh.heading.rad())
         .above("its scale", mesh.scale, 0.0, kMostHeight_m)
         .part("it", !mesh.model || is_new(mesh.model.get()) ? check_model(mesh.model.get()) : all_good())

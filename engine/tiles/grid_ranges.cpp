@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/range_check.h"
+
 namespace terrella {
 namespace {
 
@@ -73,6 +75,11 @@ Status check_origin(const TileGrid& grid, const std::string& where) {
 }  // namespace
 
 Status check_grid(const TileGrid& grid, const std::string& where) {
+  const Status known = RangeCheck()
+                           .known("projection", grid.projection, Projection::projected)
+                           .known("latitude", grid.latitude, LatitudeKind::centric)
+                           .result();
+  if (!known) return Error{where + ": " + known.error().message};
   if (!(grid.root_span_deg >= kMinRootSpanDeg && grid.root_span_deg <= kMaxRootSpanDeg)) {
     return field_error(where, "root span (--root-span, in JSON root_span_deg)", grid.root_span_deg,
                        fmt::format("in [{}, {}] degrees", kMinRootSpanDeg, kMaxRootSpanDeg));

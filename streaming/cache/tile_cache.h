@@ -50,7 +50,7 @@ struct CacheOptions {
   /// Called once, when records cannot be written for the first time: disk full, the file removed or damaged by another
   /// program. thread: the writer
   std::function<void(const Error&)> on_failed{};
-  std::size_t batch_tiles = 256;              ///< most tiles in one transaction
+  std::size_t batch_tiles = 256;              ///< most tiles in one transaction; 0 counts as 1
   std::size_t max_queued_bytes = 64UL << 20;  ///< store() blocks while more is queued
 };
 

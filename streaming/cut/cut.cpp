@@ -177,6 +177,7 @@ Result<OutputClaim> claim_output(const CutOptions& options) {
 
 Result<Job> prepare(const CutOptions& options) {
   if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG, WebP or TIFF file"};
+  if (Status sane = check_options(options); !sane) return sane.error();
   if (Status sane = check_shard(options); !sane) return sane.error();
   auto claim = claim_output(options);
   if (!claim) return claim.error();

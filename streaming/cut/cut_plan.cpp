@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/range_check.h"
+
 namespace terrella {
 namespace {
 
@@ -13,9 +15,28 @@ namespace {
 /// decimals.
 constexpr double kAlignment_px = 0.01;
 
+constexpr int kMostMosaicSide = 100'000;
+constexpr int kMostBands = 65'535;
+/// Largest scale and offset of heights.
+constexpr double kMostNumber = 1e9;
+
 std::string name_of(const CutOptions& options) {
   return options.images.empty() ? std::string("picture") : options.images.front().string();
 }
+
+Status check_bands(const CutBands& composite) {
+  RangeCheck check;
+  for (const int band : composite.bands) check.in("bands", band, 1, kMostBands);
+  for (const auto& stretch : composite.stretch) {
+    if (!stretch) continue;
+    check.known("the kind of a stretch", stretch->kind, StretchRule::Kind::sigma)
+        .finite("the low end of a stretch", stretch->low)
+        .finite("the high end of a stretch", stretch->high);
+  }
+  return check.result();
+}
+
+}  // namespace
 
 Status check_options(const CutOptions& options) {
   if (options.tile_px < 16 || options.tile_px > 4096 || options.tile_px % 2 != 0) {
@@ -25,8 +46,25 @@ Status check_options(const CutOptions& options) {
     return Error{fmt::format("quality {}: it takes 1 to 100", options.quality)};
   }
   if (options.jobs < 0 || options.jobs > 256) return Error{fmt::format("jobs {}: it takes 0 to 256", options.jobs)};
-  return Done{};
+  const MosaicGrid mosaic = options.mosaic.value_or(MosaicGrid{});
+  const CutElevation heights = options.elevation.value_or(CutElevation{});
+  RangeCheck check;
+  check.known("format", options.format.value_or(ImageFormat::jpeg), ImageFormat::webp)
+      .known("projection", options.projection, Projection::equal_area)
+      .known("latitude", options.latitude.value_or(LatitudeKind::graphic), LatitudeKind::centric)
+      .in("columns", mosaic.columns, 1, kMostMosaicSide)
+      .in("rows", mosaic.rows, 1, kMostMosaicSide)
+      .in("scale", heights.scale.value_or(1.0), -kMostNumber, kMostNumber)
+      .that(heights.scale != 0.0, "scale is 0; give another")
+      .in("offset", heights.offset.value_or(0.0), -kMostNumber, kMostNumber)
+      .in("band", options.numbers.value_or(CutNumbers{}).band, 1, kMostBands)
+      .in("west_deg", options.west_deg.value_or(0.0), -360.0, 360.0)
+      .in("row_step", options.watch ? double(options.watch->row_step) : 1.0, 1, RangeCheck::kMost);
+  if (options.composite) check.part("composite", check_bands(*options.composite));
+  return check.result();
 }
+
+namespace {
 
 /// Chooses the coarsest root that needs at most two tiles round the planet.
 Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name) {

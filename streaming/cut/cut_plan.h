@@ -33,6 +33,9 @@ struct CutPiece {
   std::int64_t first_column = 0;  ///< column in the picture's rows
 };
 
+/// Fails if an option is out of the range that streaming/cut.h states, and names the option. thread: any
+[[nodiscard]] Status check_options(const CutOptions& options);
+
 /// Makes a plan, or reports why the cut is impossible and what to do: a picture that is not 2:1 without bounds, bounds
 /// with pixels that are not square or not aligned with their own grid, options out of range. Reads no file. thread: any
 [[nodiscard]] Result<CutPlan> plan_cut(const PictureInfo& picture, const CutOptions& options);

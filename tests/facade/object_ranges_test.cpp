@@ -31,6 +31,11 @@ TEST_F(ObjectRanges, OfObjects) {
                 .meshes = {{.model = model(2, 1.0, 4), .place = kRangePlace}}};
   std::vector<Row<S>> rows = {
       {"radius_m", {0.0, 1e12}, {-1.0, 1.1e12, kNoNumberAtAll}, [](S& s, double v) { s.points[0].radius_m = v; }},
+      {"heights", {0, 2}, {-1, 3}, [](S& s, double v) { s.points[0].heights = HeightMode(int(v)); }},
+      {"line heights", {0, 2}, {3}, [](S& s, double v) { s.lines[0].heights = HeightMode(int(v)); }},
+      {"polygon heights", {0, 2}, {3}, [](S& s, double v) { s.polygons[0].heights = HeightMode(int(v)); }},
+      {"label heights", {0, 2}, {3}, [](S& s, double v) { s.labels[0].heights = HeightMode(int(v)); }},
+      {"mesh heights", {0, 2}, {3}, [](S& s, double v) { s.meshes[0].heights = HeightMode(int(v)); }},
       {"size_px", {0.0, 1e6}, {-1.0, 1.1e6, kNoNumberAtAll}, [](S& s, double v) { s.points[0].size_px = float(v); }},
       {"heading", {720.0}, {kNoNumberAtAll}, [](S& s, double v) { s.points[0].icon.heading = Angle::degrees(v); }},
       {"anchor", {0.0, 3.0}, {kNoNumberAtAll}, [](S& s, double v) { s.points[0].icon.anchor.x = float(v); }},

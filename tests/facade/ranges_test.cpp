@@ -19,10 +19,15 @@ const std::vector<Row<SurfaceLook>> kSurfaceRows = {
      {0.0, 6378137.0},
      {-1.0, 6378138.0, 1e308, kNoNumberAtAll},
      [](SurfaceLook& s, double v) { s.inner_sphere_below_m = v; }},
+    {"blend", {0, 1}, {-1, 2}, [](SurfaceLook& s, double v) { s.blend = Blend(int(v)); }},
+    {"from_below", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.from_below = SurfaceFromBelow(int(v)); }},
+    {"horizon_culling", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.horizon_culling = HorizonCulling(int(v)); }},
+    {"sharpness", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.sharpness = Sharpness(int(v)); }},
     {"inner_sphere_srgb", {0.0, 1.0}, {-0.1, 1.1, kNoNumberAtAll}, [](SurfaceLook& s, double v) {
        s.inner_sphere_srgb = glm::vec3(float(v));
      }}};
 const std::vector<Row<StereoLook>> kStereoRows = {
+    {"mode", {0, 3}, {-1, 4}, [](StereoLook& s, double v) { s.mode = Stereo(int(v)); }},
     {"eye_separation_m", {0.0, 1e9}, {-1.0, 1.1e9, kNoNumberAtAll}, [](StereoLook& s, double v) {
        s.eye_separation_m = v;
      }}};
@@ -48,6 +53,9 @@ TEST_F(Ranges, OfOptions) {
   using std::chrono::hours, std::chrono::milliseconds;
   const double day_ms = 24.0 * 3600e3;
   std::vector<Row<O>> rows = {
+      {"texturing", {0, 3}, {-1, 4}, [](O& o, double v) { o.texturing = Texturing(int(v)); }},
+      {"depth", {0, 2}, {-1, 3}, [](O& o, double v) { o.depth = DepthMode(int(v)); }},
+      {"gl_contract", {0, 1}, {-1, 2}, [](O& o, double v) { o.gl_contract = GlContract(int(v)); }},
       {"polar_columns", {1, 4096}, {-1, 0, 4097}, [](O& o, double v) { o.polar_columns = int(v); }},
       {"texels_per_pixel",
        {0.125, 8.0},
@@ -190,6 +198,8 @@ TEST_F(Ranges, OfImageLayers) {
       {"opacity", {0.0, 1.0}, {-0.1, 1.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.opacity = v; }},
       {"min_level", {0, kMaxTileLevel}, {-1, kMaxTileLevel + 1}, [](ImageLook& l, double v) { l.min_level = int(v); }},
       {"max_level", {0, kMaxTileLevel}, {-1, kMaxTileLevel + 1}, [](ImageLook& l, double v) { l.max_level = int(v); }},
+      {"daylight", {0, 2}, {-1, 3}, [](ImageLook& l, double v) { l.daylight = Daylight(int(v)); }},
+      {"alpha", {0, 1}, {-1, 2}, [](ImageLook& l, double v) { l.alpha = AlphaFrom(int(v)); }},
       {"height_m", {0.0, 1e6}, {-1.0, 1.1e6, kNoNumberAtAll}, [](ImageLook& l, double v) { l.height_m = v; }}};
   expect_ranges<ImageLook>({}, looks, "Globe::set_look: ", [&](const ImageLook& look) {
     return planet->set_look(planet->imagery().front(), look);

@@ -8,6 +8,7 @@
 
 #include "geo/body.h"
 #include "geo/measure.h"
+#include "streaming/cut.h"
 #include "streaming/http/http_fetcher.h"
 #include "streaming/http/reply_queue.h"
 #include "streaming/preload/preloader.h"
@@ -56,6 +57,76 @@ TEST_F(StreamingRanges, AWindowOfNoRequestIsAnError) {
     ASSERT_FALSE(done);
     EXPECT_NE(done.error().message.find("a window of " + std::to_string(window)), std::string::npos);
   }
+}
+
+TEST_F(StreamingRanges, OfCuts) {
+  using O = CutOptions;
+  const std::vector<Row<O>> rows = {
+      {"tile_px", {16, 4096}, {-2, 0, 15, 17, 4098}, [](O& o, double v) { o.tile_px = int(v); }},
+      {"quality", {1, 100}, {0, 101}, [](O& o, double v) { o.quality = int(v); }},
+      {"format", {0, 2}, {-1, 3, 4}, [](O& o, double v) { o.format = ImageFormat(int(v)); }},
+      {"columns",
+       {1},
+       {-1, 0, 100'001},
+       [](O& o, double v) {
+         o.mosaic = MosaicGrid{int(v), 1};
+       }},
+      {"rows",
+       {1},
+       {-1, 0, 100'001},
+       [](O& o, double v) {
+         o.mosaic = MosaicGrid{1, int(v)};
+       }},
+      {"scale",
+       {-1e9, 1e9},
+       {0.0, 1.1e9, kNoNumberAtAll, kInfinite},
+       [](O& o, double v) { o.elevation = CutElevation{.scale = v}; }},
+      {"offset",
+       {-1e9, 1e9},
+       {1.1e9, kNoNumberAtAll, -kInfinite},
+       [](O& o, double v) { o.elevation = CutElevation{.offset = v}; }},
+      {"band", {1, 65535}, {-1, 0, 65536}, [](O& o, double v) { o.numbers = CutNumbers{.band = int(v)}; }},
+      {"bands",
+       {1, 65535},
+       {-1, 0, 65536},
+       [](O& o, double v) {
+         o.composite = CutBands{.bands = {1, int(v), 1}};
+       }},
+      {"stretch",
+       {2.0},
+       {kNoNumberAtAll, kInfinite},
+       [](O& o, double v) { o.composite = CutBands{.stretch = {StretchRule{.low = v}}}; }},
+      {"kind",
+       {0, 3},
+       {-1, 4},
+       [](O& o, double v) { o.composite = CutBands{.stretch = {StretchRule{.kind = StretchRule::Kind(int(v))}}}; }},
+      {"west_deg", {-360, 360}, {-361, 361, kNoNumberAtAll}, [](O& o, double v) { o.west_deg = v; }},
+      {"projection", {0, 1}, {-1, 2, 3, 4}, [](O& o, double v) { o.projection = Projection(int(v)); }},
+      {"latitude", {0, 1}, {-1, 2}, [](O& o, double v) { o.latitude = LatitudeKind(int(v)); }},
+      {"jobs", {0, 256}, {-1, 257}, [](O& o, double v) { o.jobs = int(v); }},
+      {"index", {1, 3}, {-1, 0, 4}, [](O& o, double v) { o.shard = CutShard{.index = int(v), .count = 3}; }},
+      {"count",
+       {1, 100'000},
+       {-1, 0, 100'001},
+       [](O& o, double v) { o.shard = CutShard{.index = 1, .count = int(v)}; }},
+      {"row_step", {1}, {-1, 0}, [](O& o, double v) { o.watch.emplace().row_step = std::int64_t(v); }}};
+  const O whole{.images = {folder_ / "nowhere.tif"}, .output = folder_ / "out"};
+  expect_ranges<O>(whole, rows, "cut: ", [](const O& options) {
+    const std::string why = cut(options).error().message;  // good options fail at the file, which is not there
+    return why.find("nowhere.tif") != why.npos ? Status(Done{}) : Status(Error{"cut: " + why});
+  });
+}
+
+TEST_F(StreamingRanges, ACacheOfNoBatchWritesSingleTiles) {
+  TileSetInfo info;
+  info.grid = {.max_level = 1};
+  const auto cache =
+      TileCache::open(folder_ / "cache.gpkg", info, "nowhere", {.batch_tiles = 0, .max_queued_bytes = 0});
+  ASSERT_TRUE(cache) << cache.error().message;
+  CacheRecord sea;
+  sea.missing = MissingKind::absent;
+  for (const int x : {0, 1}) (*cache)->store({0, x, 0}, sea);
+  EXPECT_TRUE((*cache)->flush());
 }
 
 TEST(PlainRanges, FewerThanTwoPlacesAreTwo) {

@@ -80,13 +80,18 @@ class Headers(unittest.TestCase):
 
     def test_each_stated_range_has_a_row_in_the_contract_of_ranges(self):
         """A value of the Globe API with a range in its comment is tried at its ends and beyond (ranges_test.cpp)."""
-        tests = (SOURCE / 'tests/facade' / name for name in ('ranges.h', 'ranges_test.cpp', 'object_ranges_test.cpp'))
+        tests = (SOURCE / 'tests/facade' / name for name in
+                 ('ranges.h', 'ranges_test.cpp', 'object_ranges_test.cpp', 'streaming_ranges_test.cpp'))
         rows = set(re.findall(r'\{"(?:\w+ )?(\w+)",', ''.join(path.read_text() for path in tests)))
-        headers = ['geo/camera.h', 'geo/coordinates.h', 'geo/objects.h', 'geo/object_edits.h', 'globe/globe_options.h',
-                   'surface/layers.h', 'tiles/tile_grid.h', 'view/render_modes.h']
+        engine = ['geo/camera.h', 'geo/coordinates.h', 'geo/objects.h', 'geo/object_edits.h', 'globe/globe_options.h',
+                  'surface/layers.h', 'tiles/tile_grid.h', 'view/render_modes.h']
+        headers = [f'engine/{header}' for header in engine] + ['streaming/cut.h', 'streaming/cache/tile_cache.h']
+        texts = [(SOURCE / header).read_text() for header in headers]
+        enums = '|'.join(set(re.findall(r'^enum class (\w+) {', ''.join(texts), re.MULTILINE)))
         stated = set()
-        for header in headers:
-            lines = (SOURCE / 'engine' / header).read_text().splitlines()
+        for text in texts:
+            stated |= set(re.findall(rf'^  (?:std::optional<)?(?:{enums})>? (\w+)(?: = .*|{{.*)?;', text, re.MULTILINE))
+            lines = text.splitlines()
             for k, line in enumerate(lines):
                 if not re.search(r'//.*([\[(]-?[\w.]+°?, [\w.]+°?( \w+)?[\])]|[Pp]ositive|not negative|> 0|less than)', line):
                     continue
@@ -94,7 +99,7 @@ class Headers(unittest.TestCase):
                 member = re.match(r'  [\w:<>, ]+?[ &](\w+)(?: = .*|\{.*)?(?:;|,)', code)
                 if member and not member[1].startswith('k'):
                     stated.add(member[1])
-        self.assertGreaterEqual(stated, {'polar_columns', 'workers', 'fov_y', 'lat', 'opacity', 'tile_px', 'scale', 'indices'})
+        self.assertGreaterEqual(stated, {'polar_columns', 'workers', 'fov_y', 'lat', 'opacity', 'tile_px', 'scale', 'indices', 'quality', 'blend'})
         self.assertEqual(stated - rows, set())
 
     def test_each_declaration_says_which_thread_may_use_it(self):
