@@ -1,6 +1,9 @@
 #include "streaming/remote/tile_fetcher.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -115,9 +118,25 @@ void TileFetcher::request_directory(Directory directory) {
 }
 
 void TileFetcher::answer(HttpReply&& reply) {
-  if (set_.file) check_version(reply);
-  if (reply.id >= kDirectories) return answer_directory(reply);
-  answer_tile(std::move(reply));
+  const std::uint64_t number = reply.id;
+  try {
+    if (set_.file) check_version(reply);
+    if (number >= kDirectories) return answer_directory(reply);
+    answer_tile(std::move(reply));
+  } catch (const std::exception& error) {
+    give_up(number, fmt::format("{}: {}", set_.url.redacted(), error.what()));
+  }
+}
+
+/// Answers a tile, or all that wait for a directory, whose work has failed, as for want of memory.
+void TileFetcher::give_up(std::uint64_t number, const std::string& why) {
+  std::vector<std::uint64_t> tiles{number};
+  if (number >= kDirectories) {
+    const std::lock_guard lock(mutex_);
+    const auto directory = directories_.extract(number);
+    tiles = directory.empty() ? std::vector<std::uint64_t>() : directory.mapped().tiles;
+  }
+  for (const std::uint64_t tile : tiles) give(tile, HttpOutcome::failed, why);
 }
 
 void TileFetcher::answer_tile(HttpReply&& reply) {

@@ -51,6 +51,7 @@ class TileFetcher {
   void wait_for(const ByteRange& range, std::uint64_t number);
   void request_directory(Directory directory);
   void answer(HttpReply&& reply);
+  void give_up(std::uint64_t number, const std::string& why);
   void answer_tile(HttpReply&& reply);
   void answer_directory(const HttpReply& reply);
   void give(HttpReply&& reply);

@@ -78,6 +78,7 @@ void SpanFetcher::set_priority(std::uint64_t number, double priority) {
 
 void SpanFetcher::cancel(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
+  if (in_check_.erase(number) > 0) return;
   if (const auto span = waiting_.extract(number); !span.empty()) {
     places_.erase({span.mapped().range.offset, number});
     return;
@@ -170,7 +171,10 @@ void SpanFetcher::split(HttpReply&& reply) {
     const auto found = groups_.extract(reply.id);
     if (found.empty()) return;
     group = std::move(found.mapped());
-    for (const auto& [number, span] : group.spans) group_of_.erase(number);
+    for (const auto& [number, span] : group.spans) {
+      group_of_.erase(number);
+      in_check_.insert(number);
+    }
     launch();
   }
   const std::vector<std::byte> body = std::move(reply.body);
@@ -178,6 +182,10 @@ void SpanFetcher::split(HttpReply&& reply) {
     HttpReply part = reply;
     part.id = number;
     if (part.outcome == HttpOutcome::content) cut_out(part, group, span, body);
+    {
+      const std::lock_guard lock(mutex_);
+      if (in_check_.erase(number) == 0) continue;  // cancelled
+    }
     if (part.outcome == HttpOutcome::broken && !std::exchange(span.again, true)) {
       wait(number, std::move(span));
     } else {

@@ -83,6 +83,7 @@ class SpanFetcher {
   std::set<std::pair<std::uint64_t, std::uint64_t>> places_;  ///< offset and number of each waiting span
   std::map<std::uint64_t, Group> groups_;                     ///< in flight, by number of the request
   std::unordered_map<std::uint64_t, std::uint64_t> group_of_;
+  std::set<std::uint64_t> in_check_;  ///< spans that came and have no answer yet
   std::uint64_t last_group_ = 0;
   ReplyQueue raw_;
   HttpFetcher fetcher_;

@@ -69,8 +69,9 @@ class Signals(ProgramTest):
                     process = self.start("render", address, "--max-level", "3", "-o", "shot.png", "--cache", "off",
                                          "--size", "64x64")
                     silent.settimeout(TIME_LIMIT_S)
-                    self.addCleanup(silent.accept()[0].close)
-                    time.sleep(0.5)  # into the wait for the tiles
+                    asked = silent.accept()[0]
+                    self.addCleanup(asked.close)
+                    self.assertTrue(asked.recv(1))  # the program waits for tiles
                     self.assert_ends(process, number, FAILED, "shot.png")
                     self.assert_nothing_but()
 

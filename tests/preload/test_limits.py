@@ -302,12 +302,12 @@ class Locked(LimitTest):
         self.assertEqual(len(self.stored()), servers.tiles_in(4))
 
     def test_while_it_is_filled(self):
+        stored = self.cache.with_name("stored.txt")
         process = subprocess.Popen([PROGRAM, "preload", self.server.template, "-o", self.cache,
-                                    "--levels", "0-3", "--rate", "40"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                    "--levels", "0-3", "--rate", "40", "--stored", stored], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True)
-        while not self.cache.exists() or not self.cache.with_name("cache.gpkg-wal").exists():
+        while process.poll() is None and not (stored.exists() and stored.stat().st_size > 0):
             time.sleep(0.01)
-        time.sleep(0.5)
         self.hold("BEGIN IMMEDIATE")
         out, said = process.communicate(timeout=60)
         self.assertEqual(process.returncode, DONE, out + said)

@@ -122,5 +122,18 @@ TEST_F(SpanFetcherTest, ACancelledSpanIsNotAnswered) {
   EXPECT_TRUE(taken.contains(2) && taken.contains(3));
 }
 
+TEST_F(SpanFetcherTest, ASpanThatIsCancelledWhileItIsCheckedIsNotRequestedAgain) {
+  SpanFetcher fetcher(address(), quick_options(), answers_);
+  fetcher.fetch(1, {0, 10}, 0.0, [&fetcher](const ByteRange&, std::span<const std::byte>) {
+    fetcher.cancel(1);
+    return Status(Error{"not so"});
+  });
+  fetcher.fetch(2, {20, 10}, 0.0, any_bytes);
+  expect_text(take(answers_, 1).at(2), 20, 10);
+  fetcher.fetch(3, {500'000, 10}, 0.0, any_bytes);
+  EXPECT_EQ(take(answers_, 1).begin()->first, 3U);
+  EXPECT_EQ(served_.requests(2), 2U);
+}
+
 }  // namespace
 }  // namespace terrella::test
