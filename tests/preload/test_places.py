@@ -141,13 +141,12 @@ class CacheInUse(PreloadTest):
     def test_a_cut_whose_work_is_removed_is_no_success(self):
         process = subprocess.Popen([PROGRAM, "cut", BLUE_MARBLE, "-o", "earth.gpkg", "--tile-size", "64"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        parts = []
-        while process.poll() is None and not parts:
-            parts = list(self.folder.glob(".earth.gpkg.*.part"))
-        self.assertTrue(parts)
-        for part in parts:
-            # In one step: the cutter goes on writing into a folder that is emptied file by file.
-            part.rename(self.folder / "gone")
+        bands = []
+        while process.poll() is None and not bands:
+            bands = list(self.folder.glob(".earth.gpkg.*.part/band-*"))
+        self.assertTrue(bands)
+        # In one step: the cutter goes on writing into a folder that is emptied file by file.
+        bands[0].parent.rename(self.folder / "gone")
         _, said = process.communicate()
         self.assertEqual(process.returncode, FAILED, said)
         self.assertIn("earth.gpkg", said)
