@@ -103,7 +103,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
     if (const auto attribution = globe.attribution(ids[i])) rows.back().attribution = *attribution;
     rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
     if (i > 0) continue;
-    rows.back().bounds = if_a_part(first.grid.bounds);
+    rows.back().bounds = part_with_data(scene.tile_set, first.grid.bounds);
     rows.back().finest_level = first.grid.max_level;
   }
   for (const LayerId id : globe.objects()) {

@@ -32,18 +32,19 @@ namespace {
 constexpr std::size_t kMostReasons = 4;
 
 /// Says where the data of a part of the planet lie; empty for a whole planet.
-std::string where_they_lie(const GeoRect& bounds) {
-  if (!if_a_part(bounds)) return {};
+std::string where_they_lie(const std::optional<GeoRect>& part) {
+  if (!part) return {};
   return fmt::format(
       "no data are in this view; they lie from {:.6g}° to {:.6g}° east and {:.6g}° to {:.6g}° north. "
       "Leave out --camera to look at them",
-      bounds.west.deg(), bounds.east.deg(), bounds.south.deg(), bounds.north.deg());
+      part->west.deg(), part->east.deg(), part->south.deg(), part->north.deg());
 }
 
 /// Refuses a picture without any tile, which would look like the planet. A view beside the data only causes a remark.
-Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing, const GeoRect& bounds) {
+Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing, const Url& tile_set,
+                       const GeoRect& bounds) {
   if (stats.imagery_shown) return Done{};
-  const std::string where = where_they_lie(bounds);
+  const std::string where = where_they_lie(part_with_data(tile_set, bounds));
   if (stats.tiles_wanted == 0) {
     if (!where.empty()) print_message("{}\n", where);
     return Done{};
@@ -242,7 +243,9 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
   own.check_fills();
   const auto& missing = own.globe->missing_tiles();
-  if (const Status some = check_some_came(stats, missing, own.base.tiles->info().grid.bounds); !some)
+  if (const Status some =
+          check_some_came(stats, missing, own.command.scene.tile_set, own.base.tiles->info().grid.bounds);
+      !some)
     return some.error();
   std::vector<std::string> thanks = own.globe->attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());

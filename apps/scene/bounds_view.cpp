@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geo/body.h"
 #include "geo/longitudes.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/tile_lister.h"
 
 namespace terrella {
 namespace {
@@ -12,7 +15,43 @@ constexpr double kMostOfPlanet_deg = 300.0;
 constexpr double kRoom = 1.3;         // visible extent relative to that of the bounds
 constexpr double kNearest_m = 100.0;  // lowest height, as a single point has no extent
 
+/// Tiles of this width tell a part of the planet well enough.
+constexpr double kNarrow_deg = 12.0;
+constexpr int kMostTiles = 20'000;
+
+GeoRect bounds_of(const TileGrid& grid, const TileId& least, const TileId& most) {
+  const TileBounds first = tile_bounds(grid, least), last = tile_bounds(grid, most);
+  const auto latitude = [&grid](double row_deg) { return latitude_of_row(grid, earth().ellipsoid, row_deg); };
+  return {.west = Angle::degrees(std::max(-180.0, first.west_deg)),
+          .south = latitude(std::max(bottom_row_deg(grid), last.south_deg)),
+          .east = Angle::degrees(std::min(180.0, last.east_deg)),
+          .north = latitude(std::min(top_row_deg(grid), first.north_deg))};
+}
+
 }  // namespace
+
+std::optional<GeoRect> part_with_data(const Url& tile_set, const GeoRect& bounds) {
+  const auto stated = if_a_part(bounds);
+  if (stated || tile_set.empty()) return stated;
+  const auto source = open_stored_tile_set(tile_set.with_secrets());
+  auto* const lister = source ? dynamic_cast<TileLister*>(source->get()) : nullptr;
+  if (lister == nullptr || (*source)->info().grid.projection == Projection::projected) return {};
+  const TileGrid& grid = (*source)->info().grid;
+  TileId least, most;
+  int tiles = 0;
+  const Status listed = lister->for_each_tile([&](const TileId& id) {
+    if (id.squeeze > 0) return true;
+    if (tiles == 0 || id.level > least.level) {
+      if (tiles > 0 && tile_span_deg(grid, least.level) <= kNarrow_deg) return false;
+      least = most = id;
+    }
+    least = {.level = id.level, .x = std::min(least.x, id.x), .y = std::min(least.y, id.y)};
+    most = {.level = id.level, .x = std::max(most.x, id.x), .y = std::max(most.y, id.y)};
+    return ++tiles < kMostTiles;
+  });
+  if (!listed || tiles == 0 || tiles == kMostTiles) return {};
+  return if_a_part(bounds_of(grid, least, most));
+}
 
 Angle width_of(const GeoRect& bounds) { return Angle::degrees(width_deg(bounds)); }
 

@@ -5,6 +5,7 @@
 #include "geo/camera.h"
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
+#include "streaming/url.h"
 
 // Views of a part of the planet. thread: any
 namespace terrella {
@@ -13,6 +14,10 @@ namespace terrella {
 [[nodiscard]] Angle width_of(const GeoRect& bounds);
 /// Returns the bounds, or nullopt if they span most of the planet.
 [[nodiscard]] std::optional<GeoRect> if_a_part(const GeoRect& bounds);
+/// Returns the part of the planet with data: the set's own bounds, or, if these span most of the planet, the bounds of
+/// the tiles of a local set: of its first level with tiles of a few degrees. Nullopt for the planet, and if many tiles
+/// would have to be looked up. Blocks.
+[[nodiscard]] std::optional<GeoRect> part_with_data(const Url& tile_set, const GeoRect& bounds);
 /// Looks straight down on the middle, from a height that shows the whole rectangle. `aspect` is the picture's width
 /// divided by its height.
 [[nodiscard]] Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect);

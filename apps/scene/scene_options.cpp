@@ -246,7 +246,7 @@ Camera first_camera(const SceneOptions& options, const Body& body, const GeoRect
   Camera whole;
   whole.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
   whole.eye.height_m = whole_globe_height_m(body.ellipsoid, whole.fov_y, picture);
-  const auto part = if_a_part(bounds);
+  const auto part = part_with_data(options.tile_set, bounds);
   if (!part) return whole;
   Camera over = camera_over(*part, body.ellipsoid, whole.fov_y, double(picture.width_px) / picture.height_px);
   over.eye.height_m = std::min(over.eye.height_m, whole.eye.height_m);

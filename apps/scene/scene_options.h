@@ -81,7 +81,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Returns --body, else the tile set's body, else Earth. Fails if the tile set names an invalid body.
 [[nodiscard]] Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info);
 
-/// Returns --camera, else a view straight down on the imagery, if its `bounds` are a part of the planet, else one on
+/// Returns --camera, else a view straight down on the imagery, if its data are in a part of the planet, else one on
 /// 20°N 0°E with the whole globe filling the picture.
 [[nodiscard]] Camera first_camera(const SceneOptions& options, const Body& body, const GeoRect& bounds,
                                   Viewport picture);
