@@ -233,6 +233,7 @@ TEST_F(GrowingCutTest, NumbersShowASmallVersionUntilTheyAreCut) {
 struct CoarseCase {
   const char* name;
   const char* made_by;  ///< options of gdal_translate; empty: a JPEG
+  friend void PrintTo(const CoarseCase& one, std::ostream* out) { *out << one.name; }
 };
 class CoarseRaster : public testing::TestWithParam<CoarseCase> {};
 

@@ -78,6 +78,9 @@ void expect_right_means(const Image& picture, const Placement& placement, Cut& m
 
 struct PlanetCase {
   int width_px, height_px, tile_px;
+  friend void PrintTo(const PlanetCase& one, std::ostream* out) {
+    *out << one.width_px << "x" << one.height_px << " in " << one.tile_px;
+  }
 };
 
 class Planet : public testing::TestWithParam<PlanetCase> {};
@@ -130,6 +133,9 @@ TEST(PyramidTest, WhatIsInvisibleDoesNotTintWhatIsNot) {
 struct RegionCase {
   std::int64_t x0, y0;
   int width_px, height_px;
+  friend void PrintTo(const RegionCase& one, std::ostream* out) {
+    *out << one.x0 << ", " << one.y0 << ", " << one.width_px << "x" << one.height_px;
+  }
 };
 
 class Region : public testing::TestWithParam<RegionCase> {};

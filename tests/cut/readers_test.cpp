@@ -49,6 +49,7 @@ TEST(ReadersTest, JpegsAreReadAsTheTileDecoderDoes) {
 struct TiffCase {
   const char* name;
   TiffKind kind;
+  friend void PrintTo(const TiffCase& one, std::ostream* out) { *out << one.name; }
 };
 
 class Tiff : public testing::TestWithParam<TiffCase> {};

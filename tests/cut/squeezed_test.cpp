@@ -63,6 +63,7 @@ double worst_in(TileSource& tiles, const TileId& id) {
 struct SqueezedCase {
   int width_px;
   const char* output;
+  friend void PrintTo(const SqueezedCase& one, std::ostream* out) { *out << one.width_px << " to " << one.output; }
 };
 class SqueezedTiles : public testing::TestWithParam<SqueezedCase> {};
 

@@ -112,6 +112,7 @@ struct Harm {
   const char* name;
   TiffBytes bytes;
   const char* part;  ///< part of the message
+  friend void PrintTo(const Harm& one, std::ostream* out) { *out << one.name; }
 };
 
 class Hostile : public testing::TestWithParam<Harm> {};

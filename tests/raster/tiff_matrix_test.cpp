@@ -15,6 +15,7 @@ constexpr int kHigh = 173;
 struct NumberType {
   const char* name;
   double least, most;
+  friend void PrintTo(const NumberType& one, std::ostream* out) { *out << one.name; }
 };
 constexpr NumberType kTypes[] = {
     {"Byte", 0, 255},     {"UInt16", 0, 65535},       {"Int16", -32768, 32767}, {"UInt32", 0, 16777215},
@@ -24,6 +25,7 @@ constexpr NumberType kTypes[] = {
 struct Layout {
   const char* name;
   const char* options;
+  friend void PrintTo(const Layout& one, std::ostream* out) { *out << one.name; }
 };
 constexpr Layout kLayouts[] = {
     {"strips", ""},
@@ -78,6 +80,7 @@ struct PictureCase {
   const char* name;
   int bands;
   const char* options;
+  friend void PrintTo(const PictureCase& one, std::ostream* out) { *out << one.name; }
 };
 
 class PictureMatrix : public testing::TestWithParam<PictureCase> {};

@@ -188,26 +188,29 @@ TEST(Wmts, TakesTheFirstSetThatCanBeShown) {
 }
 
 TEST(Wmts, LimitsAndBoxesNarrowLevelsAndBounds) {
-  const auto limit = [](int matrix, int row0, int row1, int col0, int col1) {
-    return fmt::format(
-        "<TileMatrixLimits><TileMatrix>{}</TileMatrix><MinTileRow>{}</MinTileRow><MaxTileRow>{}</MaxTileRow>"
-        "<MinTileCol>{}</MinTileCol><MaxTileCol>{}</MaxTileCol></TileMatrixLimits>",
-        matrix, row0, row1, col0, col1);
-  };
-  const LayerText limited{
-      .more =
-          "<ows:WGS84BoundingBox><ows:LowerCorner>-80 -90</ows:LowerCorner><ows:UpperCorner>180 "
-          "40</ows:UpperCorner></ows:WGS84BoundingBox>",
-      .limits = "<TileMatrixSetLimits>" + limit(1, 0, 1, 0, 1) + limit(2, 1, 2, 2, 3) + "</TileMatrixSetLimits>"};
-  const RemoteTileSet set =
-      read(one_set({.denominator = test::kCrs84QuadDenominator, .sizes = quads(2, 1, 6)}, limited));
-  EXPECT_EQ(set.info.grid.min_level, 1);
-  EXPECT_EQ(set.info.grid.max_level, 2);
-  constexpr double kRoundingDeg = 1e-12;
-  EXPECT_NEAR(set.info.grid.bounds.west.deg(), -80.0, kRoundingDeg);
-  EXPECT_NEAR(set.info.grid.bounds.east.deg(), 0.0, kRoundingDeg);
-  EXPECT_NEAR(set.info.grid.bounds.north.deg(), 40.0, kRoundingDeg);
-  EXPECT_NEAR(set.info.grid.bounds.south.deg(), -45.0, kRoundingDeg);
+  // Some servers name the set too.
+  for (const std::string prefix : {"", "wrap:"}) {
+    const auto limit = [&prefix](int matrix, int row0, int row1, int col0, int col1) {
+      return fmt::format(
+          "<TileMatrixLimits><TileMatrix>{}</TileMatrix><MinTileRow>{}</MinTileRow><MaxTileRow>{}</MaxTileRow>"
+          "<MinTileCol>{}</MinTileCol><MaxTileCol>{}</MaxTileCol></TileMatrixLimits>",
+          prefix + std::to_string(matrix), row0, row1, col0, col1);
+    };
+    const LayerText limited{
+        .more =
+            "<ows:WGS84BoundingBox><ows:LowerCorner>-80 -90</ows:LowerCorner><ows:UpperCorner>180 "
+            "40</ows:UpperCorner></ows:WGS84BoundingBox>",
+        .limits = "<TileMatrixSetLimits>" + limit(1, 0, 1, 0, 1) + limit(2, 1, 2, 2, 3) + "</TileMatrixSetLimits>"};
+    const RemoteTileSet set =
+        read(one_set({.denominator = test::kCrs84QuadDenominator, .sizes = quads(2, 1, 6)}, limited));
+    EXPECT_EQ(set.info.grid.min_level, 1);
+    EXPECT_EQ(set.info.grid.max_level, 2);
+    constexpr double kRoundingDeg = 1e-12;
+    EXPECT_NEAR(set.info.grid.bounds.west.deg(), -80.0, kRoundingDeg);
+    EXPECT_NEAR(set.info.grid.bounds.east.deg(), 0.0, kRoundingDeg);
+    EXPECT_NEAR(set.info.grid.bounds.north.deg(), 40.0, kRoundingDeg);
+    EXPECT_NEAR(set.info.grid.bounds.south.deg(), -45.0, kRoundingDeg);
+  }
 }
 
 TEST(Wmts, AsksWithKeysAndValuesWhereThereIsNoTemplate) {

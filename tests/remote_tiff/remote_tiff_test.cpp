@@ -37,6 +37,7 @@ struct RemoteCase {
   const char* type;
   const char* options;
   const char* overview_options = "";
+  friend void PrintTo(const RemoteCase& one, std::ostream* out) { *out << one.name; }
 };
 
 class RemoteTiffMatrix : public testing::TestWithParam<RemoteCase> {

@@ -148,6 +148,7 @@ TEST(SkyPass, PutsTheSunWhereItIs) {
 struct MoonPhase {
   const char* time;
   double lit;  ///< part of the disc
+  friend void PrintTo(const MoonPhase& one, std::ostream* out) { *out << one.time; }
 };
 
 // Instants of the phases in April 2024, from almanacs in print.

@@ -19,6 +19,7 @@ struct DragCase {
   const char* what;
   Camera start;
   glm::dvec2 from, to;
+  friend void PrintTo(const DragCase& one, std::ostream* out) { *out << one.what; }
 };
 
 class LeftDrag : public testing::TestWithParam<DragCase> {};

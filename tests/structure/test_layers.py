@@ -2,10 +2,11 @@
 import collections
 import concurrent.futures
 import re
+import subprocess
 import unittest
 
 import targets
-from targets import SOURCE
+from targets import BUILD, SOURCE
 
 # A folder with more source files is searched, not read.
 MOST_FILES = 36
@@ -132,6 +133,13 @@ class Folders(unittest.TestCase):
         count = collections.Counter(path.parent for folder in (*targets.FOLDERS, 'tests')
                                     for path in (SOURCE / folder).rglob('*') if path.suffix in ENDINGS)
         self.assertEqual({str(folder): n for folder, n in count.items() if n > MOST_FILES}, {})
+
+    def test_names_of_tests_are_short_and_the_same_in_every_run(self):
+        """A parameter that nothing prints is shown by its bytes, which are addresses in part."""
+        told = subprocess.run(['ctest', '-N'], cwd=BUILD, capture_output=True, text=True, check=True).stdout
+        names = re.findall(r'Test +#\d+: (.*)', told)
+        self.assertGreater(len(names), 50)
+        self.assertEqual([name for name in names if len(name) > 160 or '...>' in name or re.search('[0-9]{2}-byte', name)], [])
 
 
 if __name__ == '__main__':

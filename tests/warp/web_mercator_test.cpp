@@ -89,6 +89,9 @@ Misfit misfit(const Image& tile, const TileGrid& grid, const TileId& id, const t
 struct Place {
   int level;
   double lat_deg, lon_deg;
+  friend void PrintTo(const Place& one, std::ostream* out) {
+    *out << one.level << " at " << one.lat_deg << ", " << one.lon_deg;
+  }
 };
 
 class MercatorPlaces : public testing::TestWithParam<Place> {};

@@ -172,8 +172,12 @@ struct Placing {
   }
 };
 
+/// The limits of a matrix. Some servers write the name of the set before that of the matrix, as "set:0".
 const WmtsLimits* limits_of(const std::vector<WmtsLimits>& limits, const std::string& matrix) {
-  const auto found = std::ranges::find(limits, matrix, &WmtsLimits::matrix);
+  auto found = std::ranges::find(limits, matrix, &WmtsLimits::matrix);
+  if (found == limits.end()) {
+    found = std::ranges::find_if(limits, [&](const WmtsLimits& one) { return one.matrix.ends_with(":" + matrix); });
+  }
   return found == limits.end() ? nullptr : &*found;
 }
 
