@@ -110,6 +110,11 @@ TEST_F(RefusedHeights, NumbersInAnotherUnit) {
   expect_refused({"\"ft\"", "metres"});
 }
 
+TEST_F(RefusedHeights, ButNotThoseWithoutAColumnOfUnits) {
+  spoil("ALTER TABLE gpkg_2d_gridded_coverage_ancillary DROP COLUMN uom");
+  EXPECT_TRUE(must_open(path_));
+}
+
 TEST_F(RefusedHeights, TablesThatAreNotThere) {
   spoil("DROP TABLE gpkg_2d_gridded_tile_ancillary");
   expect_refused({"gpkg_2d_gridded_tile_ancillary"});

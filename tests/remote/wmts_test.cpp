@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "wmts_documents.h"
 
 namespace terrella {
@@ -211,6 +213,16 @@ TEST(Wmts, LimitsAndBoxesNarrowLevelsAndBounds) {
     EXPECT_NEAR(set.info.grid.bounds.north.deg(), 40.0, kRoundingDeg);
     EXPECT_NEAR(set.info.grid.bounds.south.deg(), -45.0, kRoundingDeg);
   }
+}
+
+// Servers of Mars imagery write them so.
+TEST(Wmts, WidthsOfMatricesMayBeWrittenAsDecimals) {
+  const std::string xml = one_set({.denominator = test::kCrs84QuadDenominator, .sizes = quads(2, 1, 3)});
+  const auto with = [&xml](const std::string& width) {
+    return std::regex_replace(xml, std::regex("<MatrixWidth>(\\d+)<"), "<MatrixWidth>" + width + "<");
+  };
+  EXPECT_EQ(read(with("$1.0")).info.grid, read(xml).info.grid);
+  expect_wmts_refused(with("$1.5"), "MatrixWidth");
 }
 
 TEST(Wmts, AsksWithKeysAndValuesWhereThereIsNoTemplate) {

@@ -82,6 +82,22 @@ class Open(WindowTest):
         wait_until("the picture", lambda: png.pixel(png.read(self.screenshot(viewer, "opened")), *GROUND)[0] > 240)
         self.assertEqual(self.recent(), [str(self.data / "pictures" / "red.png")])
 
+    def test_a_set_with_tiles_in_a_part_of_the_planet_is_flown_to(self):
+        tiles = self.folder / "tiles"
+        (tiles / "4/24").mkdir(parents=True)
+        (tiles / "tileset.json").write_text(json.dumps(
+            {"root_span_deg": 180, "tile_px": 64, "max_level": 4, "format": "png"}), encoding="ascii")
+        write_png(tiles / "4/24/4.png", 64, 64, (40, 90, 160))  # 90 to 101.25 degrees east, 33.75 to 45 north
+        for _ in range(2):
+            camera = self.start(tiles, size=SIZE).camera
+            self.assertAlmostEqual(camera.lat, 39.4, delta=0.1)
+            self.assertAlmostEqual(camera.lon, 95.6, delta=0.1)
+
+    def test_memory_that_the_driver_does_not_give_is_said(self):
+        for options, said in ((), False), (("--memory", "65536"), True):
+            viewer = self.start(*options, size=SIZE)
+            self.assertEqual(any("message" in layout.panels for layout in viewer.layouts), said)
+
     def test_what_is_not_there_is_said_in_the_window(self):
         viewer = self.start("--camera", "20,10,12000000", size=SIZE)
         before = png.read(self.screenshot(viewer, "before"))
