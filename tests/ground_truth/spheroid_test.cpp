@@ -7,19 +7,17 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
-#include <string>
 
 namespace terrella::truth {
+
+inline void PrintTo(const Spheroid& body, std::ostream* out) { *out << body.a_m << " m"; }
+
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSurface = 5e-15;    // share of the radius: some twenty ulp, 3e-8 m on the Earth
 constexpr double kAngle_deg = 1e-12;  // 1e-7 m on the ground: four orders under the smallest texel judged
 constexpr double kGrazing = 2e-13;    // share of the radius: a ray that grazes amplifies the eye's own rounding
-
-std::string radius_of(const ::testing::TestParamInfo<Spheroid>& body) {
-  return std::to_string(std::llround(body.param.a_m)) + "_m";
-}
 
 class SpheroidTest : public ::testing::TestWithParam<Spheroid> {
  protected:
@@ -75,8 +73,7 @@ TEST_P(SpheroidTest, WhatLiesBehindTheEyeIsNotHit) {
 
 INSTANTIATE_TEST_SUITE_P(Bodies, SpheroidTest,
                          ::testing::Values(Spheroid{}, Spheroid{6371000.0, 0.0}, Spheroid{60268000.0, 0.098},
-                                           Spheroid{11267.0, 0.0}),
-                         radius_of);
+                                           Spheroid{11267.0, 0.0}));
 
 TEST(LocalFrameTest, IsRightHandedEastNorthUp) {
   const LocalFrame frame = local_frame(35.0, 120.0);
