@@ -48,7 +48,7 @@ class FirstView(ProgramTest):
                 tile_column integer, tile_row integer, tile_data blob);""")
             base.executemany("INSERT INTO metadata VALUES (?, ?)", {"name": "m", "format": "png", "minzoom": "0", "maxzoom": "5",
                                                                     "bounds": "-180,-85,180,85"}.items())
-            for x in (24, 25):  # they span 90 to 112.5 degrees east, 31.95 to 40.98 north
+            for x in (24, 25):  # columns from 90 to 112.5 degrees east, a row from 31.95 to 40.98 north
                 base.execute("INSERT INTO tiles VALUES (5, ?, ?, ?)", (x, 31 - 12, png(256, 256, COLOUR)))
         return "folder", "mercator.mbtiles"
 
