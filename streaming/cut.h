@@ -58,11 +58,10 @@ struct CutShard {
   int count = 1;  ///< [1, 100000]
 };
 
-/// A picture that is no local file, such as a TIFF on a server.
+/// A picture that is no local file, such as a raster on a server.
 struct CutRaster {
-  PictureFile picture;                         ///< name, size and bytes
-  std::shared_ptr<const TiffPyramid> pyramid;  ///< pyramid of a TIFF
-  std::string key;                             ///< differs if the pixels may differ
+  PictureFile picture;  ///< name, size and the opened raster
+  std::string key;      ///< differs if the pixels may differ
   /// Opens the raster. Its blocks are read as those of a local one.
   std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
 };

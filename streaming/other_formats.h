@@ -10,11 +10,10 @@ namespace terrella {
 [[nodiscard]] std::string shell_word(const std::string& text);
 
 /// Number of leading bytes that convert_hint() examines.
-inline constexpr std::size_t kFormatHeadBytes = 4096;
+inline constexpr std::size_t kFormatHeadBytes = 64;
 
-/// Advice for a picture file in an unsupported format, found by its first bytes: "it is JPEG 2000; make a picture of it
-/// that is read: gdal_translate -of COG …". Empty if the bytes belong to no raster format that only GDAL reads.
-/// thread: any
+/// Advice for a picture file in a format that GDAL may not read, found by its first bytes: "it is AVIF; make a picture
+/// of it that is read: convert a.avif a.png". Empty for others. thread: any
 [[nodiscard]] std::string convert_hint(const std::filesystem::path& path, std::string_view head);
 
 }  // namespace terrella

@@ -108,7 +108,7 @@ void set_reading(CutCommand& command) {
   } else {
     const auto& raster = command.cut.raster;
     set_numbers(command.cut, command.numbers,
-                raster ? holds_numbers(*raster->pyramid) : any_holds_numbers(command.cut.images.front()));
+                raster ? holds_numbers(*raster->picture.raster) : any_holds_numbers(command.cut.images.front()));
   }
 }
 

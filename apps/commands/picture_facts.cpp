@@ -10,7 +10,6 @@
 #include "geo/body.h"
 #include "streaming/cut.h"
 #include "streaming/georeference/figure.h"
-#include "streaming/georeference/geo_tags.h"
 #include "streaming/georeference/warp_extent.h"
 #include "streaming/other_formats.h"
 
@@ -23,8 +22,9 @@ Result<PictureFacts> measure(const std::filesystem::path& picture, const Describ
   if (!file) return file.error();
   facts.file = *file;
   if (const auto rows = open_rows(picture)) facts.orientation = (*rows)->info().orientation;
-  facts.is_numbers = band.band > 0 || holds_numbers(picture);
-  const auto raster = describe_raster(picture, band);
+  if (!file->raster) return facts;
+  facts.is_numbers = band.band > 0 || holds_numbers(*file->raster);
+  const auto raster = describe_raster(*file->raster, band, true);
   if (!raster) return raster.error();
   facts.raster = *raster;
   return facts;
@@ -33,8 +33,8 @@ Result<PictureFacts> measure(const std::filesystem::path& picture, const Describ
 Result<PictureFacts> measure(const RemotePicture& tiff, const DescribedBand& band, bool with_values) {
   PictureFacts facts;
   facts.file = tiff.picture;
-  facts.is_numbers = band.band > 0 || holds_numbers(*tiff.pyramid);
-  auto raster = describe_raster(*tiff.pyramid, band, with_values);
+  facts.is_numbers = band.band > 0 || holds_numbers(*tiff.picture.raster);
+  auto raster = describe_raster(*tiff.picture.raster, band, with_values);
   if (!raster) {
     const std::string fault = tiff.file->take_fault();
     return fault.empty() ? raster.error() : Error{fault};

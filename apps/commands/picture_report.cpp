@@ -63,7 +63,7 @@ std::string said_text(const PictureFacts& facts) {
                         t->is_turned() ? ", turned" : "");
   }
   if (facts.said->has_control_points) text += "transform    (ground control points)\n";
-  if (facts.said->has_camera_model) text += "transform    (camera model, RPC)\n";
+  if (!facts.said->points.empty()) text += fmt::format("transform    by its {}\n", facts.said->points);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "apps/setup/stop_signals.h"
 #include "geo/body.h"
 #include "streaming/numbers/sample_tiles.h"
+#include "streaming/raster/raster_pixels.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote_tiff/range_plan.h"
 #include "streaming/sets/open_tile_set.h"
@@ -60,7 +61,7 @@ Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const Tile
   };
   auto spans = find(tiles);
   // A viewer stretches numbers by these tiles, wherever it looks.
-  if (spans && tiff.opened.tiff.pyramid->whole().part.picture.samples.colour == TiffColour::gray) {
+  if (spans && !colour_bands(tiff.opened.tiff.picture.raster->header()).in_colours()) {
     auto sampled = find(*plan_list(sampled_places(tiff.grid)));
     if (!sampled) return sampled.error();
     spans->merge(*sampled);

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "apps/setup/console.h"
 #include "apps/setup/data_dir.h"
@@ -18,12 +15,14 @@
 #include "apps/setup/user_folder.h"
 #include "codecs/image.h"
 #include "streaming/cut/input/row_reader.h"
+#include "streaming/file_bytes.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/length_unit.h"
+#include "streaming/raster/picture_kind.h"
+#include "streaming/raster/tiff_tags.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/tiff_open.h"
 #include "streaming/warp/web_mercator.h"
 
 namespace terrella {
@@ -112,21 +111,20 @@ Error no_meaning(const Url& address, const char* field) {
 }  // namespace
 
 bool begins_as_picture(const fs::path& path) {
-  std::array<char, 12> head{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), head.size());
-  const std::string_view bytes(head.data(), static_cast<std::size_t>(file.gcount()));
-  return begins_as_tiff(bytes) || sniff_format(std::as_bytes(std::span(bytes))) != ImageFormat::unknown;
+  const auto head = read_head(path, 12);
+  return head && (sniff_format(*head) != ImageFormat::unknown ||
+                  begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()}));
 }
 
 bool is_picture(const fs::path& path) {
+  if (picture_kind(path) != PictureKind::none) return true;
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return false;
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"};
-  return std::ranges::find(kExtensions, extension) != kExtensions.end() || begins_as_picture(path);
+  return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }
 
 Result<fs::path> picture_cache_folder(const std::string& cache) {

@@ -17,9 +17,8 @@
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/direct/direct_tiles.h"
-#include "streaming/file_bytes.h"
+#include "streaming/raster/picture_kind.h"
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -66,12 +65,12 @@ std::string body_text(const SceneOptions& options) {
 }
 
 /// The cut compares the given body, latitudes and place with the picture's own.
-CutOptions cut_options(const fs::path& picture, const SceneOptions& options) {
+CutOptions cut_options(const fs::path& picture, const SceneOptions& options, bool is_numbers) {
   CutOptions cut;
   cut.body = body_text(options);
   cut.latitude = options.latitude;
   set_place(cut, options.place);
-  set_numbers(cut, options.numbers, holds_numbers(picture));
+  set_numbers(cut, options.numbers, is_numbers);
   cut.remark = print_remark;
   cut.images = {picture};
   cut.name = picture.stem().string();
@@ -95,7 +94,7 @@ Result<Tiles> cut_and_open(CutOptions cut, const fs::path& folder, const CutProg
 /// Cuts a picture into a folder, or begins to.
 Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const SceneOptions& options,
                        const CutProgress& told) {
-  CutOptions cut = cut_options(picture, options);
+  CutOptions cut = cut_options(picture, options, holds_numbers(picture));
   if (options.cuts == nullptr) return cut_and_open(std::move(cut), folder, told);
   const auto path = cache_path(cut, folder);
   if (!path) return path.error();
@@ -109,17 +108,18 @@ Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const Sc
   return Tiles(*std::move(growing));
 }
 
-/// Opens a TIFF that shows at once. Its tiles are on the grid of its cut, so that its pixels are copied.
+/// Opens a raster that shows at once. Its tiles are on the grid of its cut, so that its pixels are copied.
 Result<DirectFile> open_in_place(const fs::path& picture, const SceneOptions& options) {
-  const auto head = read_head(picture, 8);
-  if (!head || !begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return DirectFile{};
-  const CutOptions cut = cut_options(picture, options);
-  auto grid = grid_of_pixels(cut);
+  if (picture_kind(picture) != PictureKind::raster) return DirectFile{};
+  const auto file = measure_raster(picture);
+  if (!file) return file.error();
+  const CutOptions cut = cut_options(picture, options, holds_numbers(*file->raster));
+  auto grid = grid_of_pixels(cut, *file);
   if (!grid) return grid.error();
   if (*grid) (*grid)->reduced = false;
   DirectOptions direct{cut.body, options.latitude, options.place, *grid, {}};
   set_numbers(direct.reading, cut);
-  return open_direct(picture, direct);
+  return open_direct(*file, direct);
 }
 
 }  // namespace

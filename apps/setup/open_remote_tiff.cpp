@@ -11,12 +11,12 @@
 #include "apps/setup/stop_signals.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/georeference/figure.h"
+#include "streaming/raster/tiff_tags.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/remote_tiff/remote_pyramid.h"
+#include "streaming/remote_tiff/remote_raster.h"
 #include "streaming/remote_tiff/waiting_raster.h"
-#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -65,12 +65,12 @@ Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish)
 }
 
 /// Options for reading a TIFF, the same as for a local one.
-RasterOptions reading_of(const TiffPyramid& pyramid, const NumberOptions& numbers) {
+RasterOptions reading_of(const RasterFile& raster, const NumberOptions& numbers) {
   RasterOptions reading;
   reading.heights = numbers.heights;
   if (numbers.heights) return reading;
   CutOptions cut;
-  set_numbers(cut, numbers, holds_numbers(pyramid));
+  set_numbers(cut, numbers, holds_numbers(raster));
   set_numbers(reading, cut);
   return reading;
 }
@@ -90,11 +90,11 @@ bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, cons
 Result<RemotePicture> open_remote_picture(const RemoteTiffWish& wish) {
   auto file = open_remote_file(wish);
   if (!file) return file.error();
-  auto pyramid = read_remote_pyramid(**file);
-  if (!pyramid) return pyramid.error();
-  const TiffPicture& whole = pyramid->whole().part.picture;
-  PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, (*file)->fetching()};
-  return RemotePicture{*std::move(file), std::make_shared<const TiffPyramid>(*std::move(pyramid)), std::move(picture)};
+  const auto raster = open_remote_raster(**file);
+  if (!raster) return raster.error();
+  const RasterShape& whole = (*raster)->header().whole();
+  PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, *raster};
+  return RemotePicture{*std::move(file), std::move(picture)};
 }
 
 Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
@@ -117,22 +117,22 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
                     tiff->file->name(), picture.width_px, picture.height_px)};
   }
   if (placeless) (*place)->remarks.push_back(taken_for_planet(tiff->file->name()));
-  auto raster = RemoteTiff::make(tiff->file, *tiff->pyramid, (*place)->at, reading_of(*tiff->pyramid, wish.numbers));
+  auto raster = RemoteTiff::make(tiff->file, picture.raster, (*place)->at, reading_of(*picture.raster, wish.numbers));
   if (!raster) return raster.error();
   return OpenedRemoteTiff{*std::move(tiff), *std::move(raster), **std::move(place), direct.body};
 }
 
 Status check_shows_at_once(const RemotePicture& tiff) {
   const std::string& where = tiff.file->name();
-  if (!tiff.pyramid->whole().has_blocks()) return no_blocks(where, *tiff.pyramid);
-  const TiffPicture& coarsest = tiff.pyramid->levels.front().part.picture;
+  const RasterHeader& header = tiff.picture.raster->header();
+  if (!header.whole().has_blocks()) return no_blocks(*tiff.picture.raster);
+  const RasterShape& coarsest = header.levels.front();
   std::vector<RasterLevel> levels;
-  for (const TiffLevel& level : tiff.pyramid->levels) {
-    const TiffPicture& picture = level.part.picture;
-    levels.push_back({.width_px = picture.width_px,
-                      .height_px = picture.height_px,
-                      .block_width_px = static_cast<int>(picture.tile_width_px),
-                      .block_height_px = static_cast<int>(picture.tile_height_px),
+  for (const RasterShape& level : header.levels) {
+    levels.push_back({.width_px = level.width_px,
+                      .height_px = level.height_px,
+                      .block_width_px = static_cast<int>(level.block_width_px),
+                      .block_height_px = static_cast<int>(level.block_height_px),
                       .to_crs = {}});
   }
   if (const auto far = far_levels(levels)) {
@@ -157,9 +157,9 @@ Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const Dire
 }
 
 CutRaster cut_raster(const RemotePicture& tiff) {
-  CutRaster cut{.picture = tiff.picture, .pyramid = tiff.pyramid, .key = tiff.file->cache_key(), .open = {}};
+  CutRaster cut{.picture = tiff.picture, .key = tiff.file->cache_key(), .open = {}};
   cut.open = [tiff](const CrsPlace& place, const RasterOptions& reading) -> Result<std::unique_ptr<RasterSource>> {
-    auto raster = RemoteTiff::make(tiff.file, *tiff.pyramid, place, reading);
+    auto raster = RemoteTiff::make(tiff.file, tiff.picture.raster, place, reading);
     if (!raster) return raster.error();
     return waiting_raster(*std::move(raster), [] { return !StopSignals::came(); });
   };

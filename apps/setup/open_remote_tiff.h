@@ -34,8 +34,7 @@ struct RemoteTiffWish {
 /// A TIFF on a server whose directories are read.
 struct RemotePicture {
   std::shared_ptr<RemoteFile> file;
-  std::shared_ptr<const TiffPyramid> pyramid;
-  PictureFile picture;  ///< its bytes wait for the network
+  PictureFile picture;  ///< its raster waits for the network
 };
 
 struct OpenedRemoteTiff {

@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Libraries opened at run time, which shlibdeps does not see.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl-mesa0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgdal32, libgl1-mesa-dri, libegl-mesa0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS gnuplot-nox)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Looks at the Earth, or at any planet that there is an equirectangular picture of, of any size.
 Cuts pictures into tiles, streams tiles from servers and fills caches with them.")
@@ -30,7 +30,7 @@ Cuts pictures into tiles, streams tiles from servers and fills caches with them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrella-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libexif-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libgeotiff-dev, libglm-dev, libglu1-mesa-dev, "
+  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libexif-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libglm-dev, libglu1-mesa-dev, "
   "libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, libwebp-dev, "
   "nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS terrella)
@@ -39,12 +39,13 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrella)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python}, python3-numpy, terrella, libegl1, libgl1")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl-mesa0")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libgdal32, libgl1-mesa-dri, libegl-mesa0")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Globes for notebooks: pictures as numpy arrays, without a display and without a GPU.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libterrella${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libgdal32)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "The globe as a C++20 library: the shared library.")
 
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The globe as a C++20 library: static libraries, headers, CMake and pkg-config descriptions.")

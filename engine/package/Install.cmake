@@ -49,7 +49,7 @@ install(FILES ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake ${PROJECT_BINARY_DIR}/T
 file(RELATIVE_PATH pc_prefix /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
 set(pc_archives "-lterrella_globe -lterrella_render -lterrella_shaders -lterrella_objects -lterrella_sky -lterrella_surface \
 -lterrella_view -lterrella_cut -lterrella_streaming -lterrella_tiles -lterrella_codecs -lterrella_geo -lterrella_base -lGeographicLib \
--lgeotiff -lGLU -pthread")
+-ldl -lGLU -pthread")
 set(pc_needs "fmt libcurl libpng sqlite3 libtiff-4 proj tinygltf pugixml libturbojpeg libjpeg libwebp libwebpdemux libexif zlib erfa freetype2")
 if(BUILD_SHARED_LIBS)
   set(pc_requires "glm epoxy")

@@ -48,8 +48,8 @@ struct PlannedCut {
 /// Opens the pictures and plans their cut; fails as cut() would. Blocks. thread: any
 [[nodiscard]] Result<PlannedCut> plan_pictures(const CutOptions& options);
 
-/// The grid of a picture's own pixels; nothing if the picture would be resampled. Reads its head. thread: any
-[[nodiscard]] Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options);
+/// The grid of a picture's own pixels; nothing if the picture would be resampled. thread: any
+[[nodiscard]] Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options, const PictureFile& picture);
 
 /// The whole picture, or its two parts on either side of ±180°. thread: any
 [[nodiscard]] std::vector<CutPiece> pieces_of(const CutPlan& plan);

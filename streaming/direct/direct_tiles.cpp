@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "geo/body.h"
-#include "streaming/file_bytes.h"
 #include "streaming/georeference/figure.h"
-#include "streaming/georeference/geo_tags.h"
-#include "streaming/raster/open_raster.h"
-#include "streaming/tiff_open.h"
+#include "streaming/raster/file_source.h"
 #include "streaming/warp/warp_source.h"
 
 namespace terrella {
 namespace {
-
-namespace fs = std::filesystem;
 
 Result<Body> body_of(const DirectOptions& options) {
   return options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
@@ -27,11 +22,6 @@ CrsPlace planet(const PictureFile& picture) {
   const double columns = 360.0 / static_cast<double>(picture.width_px);
   const double rows = 180.0 / static_cast<double>(picture.height_px);
   return {.to_crs = {.x0 = -180.0, .x_per_column = columns, .y0 = 90.0, .y_per_row = -rows}, .crs = "EPSG:4326"};
-}
-
-bool is_tiff(const fs::path& path) {
-  const auto head = read_head(path, 8);
-  return head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()});
 }
 
 }  // namespace
@@ -84,20 +74,16 @@ Result<std::unique_ptr<TileSource>> direct_tiles(std::unique_ptr<RasterSource> r
   return warp_source(std::move(raster), warp, where);
 }
 
-Result<DirectFile> open_direct(const fs::path& path, const DirectOptions& options) {
-  const auto tags = is_tiff(path) ? read_geo_tags(path) : Result<std::optional<GeoTags>>(std::optional<GeoTags>{});
-  if (!tags) return Error{path.string() + ": " + tags.error().message};
-  if (!*tags) return DirectFile{};
-  const PictureFile picture{path, (*tags)->width_px, (*tags)->height_px};
+Result<DirectFile> open_direct(const PictureFile& picture, const DirectOptions& options) {
   auto placed = place_picture(picture, options.place);
   if (!placed) return placed.error();
   const auto place = place_raster(*std::move(placed), picture, options);
   if (!place) return place.error();
   if (!*place) return DirectFile{};
-  auto raster = open_raster(path, (*place)->at, options.reading);
+  auto raster = make_file_source(picture.raster, (*place)->at, options.reading);
   if (!raster) return raster.error();
   if (!shows_at_once((*raster)->info())) return DirectFile{};
-  auto tiles = direct_tiles(*std::move(raster), **place, options, path.string());
+  auto tiles = direct_tiles(*std::move(raster), **place, options, picture.path.string());
   if (!tiles) return tiles.error();
   return DirectFile{*std::move(tiles), (*place)->remarks};
 }

@@ -72,7 +72,7 @@ struct DirectFile {
   std::vector<std::string> remarks{};
 };
 
-/// Opens a TIFF or BigTIFF directly if shows_at_once(). No tiles for other files, which are cut. Blocks. thread: any
-[[nodiscard]] Result<DirectFile> open_direct(const std::filesystem::path& path, const DirectOptions& options);
+/// Makes tiles of an opened raster if it shows_at_once(). No tiles for others, which are cut. Blocks. thread: any
+[[nodiscard]] Result<DirectFile> open_direct(const PictureFile& picture, const DirectOptions& options);
 
 }  // namespace terrella

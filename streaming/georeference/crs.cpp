@@ -94,10 +94,13 @@ void read_projection(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) 
   }
 }
 
+/// Largest radius of a body (geo/ellipsoid.h), metres.
+constexpr double kMostRadius_m = 1e10;
+
 Status read_figure(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
   const ProjHandle figure = wrap(proj_get_ellipsoid(context, crs));
   if (figure && proj_ellipsoid_get_parameters(context, figure.get(), &facts.a_m, &facts.b_m, nullptr, nullptr) != 0 &&
-      std::isfinite(facts.a_m) && std::isfinite(facts.b_m) && facts.a_m > 0.0 && facts.b_m > 0.0) {
+      facts.a_m > 0.0 && facts.a_m <= kMostRadius_m && facts.b_m > 0.0 && facts.b_m <= kMostRadius_m) {
     return Done{};
   }
   return Error{"its coordinate system names no body"};

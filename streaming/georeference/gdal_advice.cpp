@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "streaming/georeference/geo_tags.h"
 #include "streaming/other_formats.h"
+#include "streaming/raster/raster_file.h"
 
 namespace terrella {
 namespace {
@@ -21,20 +21,20 @@ std::string with_ending(const PictureFile& picture, const char* ending) {
 
 /// GDAL options for resampling, and for places without pixels.
 std::string pixel_options(const PictureFile& picture) {
-  const auto tags = read_geo_tags(picture);
-  if (!tags || !*tags) return "-r bilinear -dstalpha";
-  if ((*tags)->has_palette) return "-r near";
-  switch ((*tags)->samples) {
-    case SampleKind::colours:
-      return "-r bilinear -dstalpha";
-    case SampleKind::uint16:
+  if (!picture.raster || picture.raster->header().bands.size() > 1) return "-r bilinear -dstalpha";
+  const RasterBand& band = picture.raster->header().bands.front();
+  if (band.colour == BandColour::palette) return "-r near";
+  switch (band.type) {
+    case SampleType::uint16:
       return "-r bilinear -dstnodata 65535";
-    case SampleKind::int16:
+    case SampleType::int16:
       return "-r bilinear -dstnodata -32768";
-    case SampleKind::floats:
+    case SampleType::float32:
+    case SampleType::float64:
       return "-r bilinear -dstnodata nan";
+    default:
+      return "-r bilinear -dstalpha";
   }
-  return "-r bilinear";
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ DegreeGrid grid_over(double west_deg, double south_deg, double east_deg, double 
 
 std::string warp_command(const PictureFile& picture, const WarpAdvice& advice) {
   const std::string from = advice.from_crs.empty() ? "" : " -s_srs " + shell_word(advice.from_crs);
-  return fmt::format("gdalwarp{}{} -t_srs {} {} {} {}", advice.by_rpc ? " -rpc" : "", from, shell_word(advice.to_crs),
-                     pixel_options(picture), shell_word(picture.path.string()), with_ending(picture, "-degrees.tif"));
+  return fmt::format("gdalwarp{} -t_srs {} {} {} {}", from, shell_word(advice.to_crs), pixel_options(picture),
+                     shell_word(picture.path.string()), with_ending(picture, "-degrees.tif"));
 }
 
 std::string name_system_command(const PictureFile& picture) {

@@ -25,7 +25,6 @@ struct DegreeGrid {
 struct WarpAdvice {
   std::string to_crs = "EPSG:4326";
   std::string from_crs{};  ///< empty: GDAL reads it from the picture
-  bool by_rpc = false;     ///< by the picture's camera model
 };
 [[nodiscard]] std::string warp_command(const PictureFile& picture, const WarpAdvice& advice);
 /// Command that assigns a coordinate system to a picture, with a code that the user knows.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "streaming/georeference/gdal_advice.h"
-#include "streaming/georeference/geo_keys.h"
 #include "streaming/georeference/side_files.h"
+#include "streaming/raster/raster_file.h"
 
 namespace terrella {
 namespace {
@@ -26,54 +26,12 @@ bool same_place(const Affine& a, const Affine& b, const PictureFile& picture) {
   return true;
 }
 
-/// Transform from pixel scale and tie point; none without a scale.
-Result<std::optional<Affine>> scaled_transform(const GeoTags& tags) {
-  if (tags.pixel_scale.empty() || tags.tie_points.size() > 6) return std::optional<Affine>{};
-  if (tags.pixel_scale.size() < 2 || tags.tie_points.size() != 6) {
-    return Error{"its GeoTIFF tags give a pixel size and no tie point"};
-  }
-  // GDAL writes the width of columns that run westwards with a minus, and ignores a minus of the height.
-  const double width = tags.pixel_scale[0], height = std::abs(tags.pixel_scale[1]);
-  if (!(std::abs(width) > 0.0) || !(height > 0.0)) {
-    return Error{fmt::format("its GeoTIFF tags give pixels of {:g} by {:g}", width, height)};
-  }
-  const auto& tie = tags.tie_points;
-  return std::optional(Affine{tie[3] - tie[0] * width, width, 0.0, tie[4] + tie[1] * height, 0.0, -height});
-}
-
-/// Transform from all tags; none if the tags give none.
-Result<std::optional<Affine>> tag_transform(const GeoTags& tags, const PictureFile& picture) {
-  auto transform = scaled_transform(tags);
-  if (!transform || tags.matrix.empty()) return transform;
-  const auto& m = tags.matrix;
-  if (m.size() != 16) return Error{fmt::format("its ModelTransformation has {} numbers, not 16", m.size())};
-  const Affine by_matrix{m[3], m[0], m[1], m[7], m[4], m[5]};
-  if (*transform && !same_place(**transform, by_matrix, picture)) {
-    return Error{"its GeoTIFF tags contradict each other: pixel scale and tie point, and the ModelTransformation"};
-  }
-  return std::optional(by_matrix);
-}
-
-/// Without `with_crs`, damaged keys count as none.
-Result<std::optional<Georeference>> from_tags(const PictureFile& picture, bool with_crs) {
-  const auto tags = read_geo_tags(picture);
-  if (!tags) return Error{tags.error().message};
-  if (!*tags) return std::optional<Georeference>{};
-  auto keys = read_geo_keys(**tags);
-  if (!keys && with_crs) return keys.error();
-  if (!keys) keys = GeoKeys{};
-  auto transform = tag_transform(**tags, picture);
-  if (!transform) return transform.error();
-  Georeference said;
-  said.source = "GeoTIFF tags";
-  said.crs = keys->crs;
-  said.crs_title = keys->title;
-  said.pixel_is_point = keys->pixel_is_point;
-  said.has_control_points = !*transform && !(*tags)->tie_points.empty();
-  said.has_camera_model = !*transform && (*tags)->has_rpc;
-  if (*transform) said.transform = said.pixel_is_point ? (*transform)->from_centre() : **transform;
-  if (said.crs.empty() && !(*tags)->has_place()) return std::optional<Georeference>{};
-  return std::optional(std::move(said));
+/// Statement of the picture's own header.
+Result<std::optional<Georeference>> from_header(const PictureFile& picture, bool with_crs) {
+  if (!picture.raster) return std::optional<Georeference>{};
+  auto said = picture.raster->header().said;
+  if (said && with_crs && !said->fault.empty()) return Error{said->fault};
+  return said;
 }
 
 /// Adds the statement of a file beside the picture.
@@ -110,12 +68,13 @@ Error contradiction(const PictureFile& picture, const std::string& why) {
 }  // namespace
 
 Result<std::optional<Georeference>> read_georeference(const PictureFile& picture, bool with_crs) {
-  auto tags = from_tags(picture, with_crs);
-  if (!tags) return cannot_believe(picture, tags.error().message);
+  auto own = from_header(picture, with_crs);
+  if (!own) return cannot_believe(picture, own.error().message);
+  const bool counts_sides = !picture.raster || picture.raster->header().is_local_tiff;
   const auto claims =
-      picture.bytes ? Result<std::vector<SideClaim>>(std::vector<SideClaim>()) : read_side_files(picture.path);
+      counts_sides ? read_side_files(picture.path) : Result<std::vector<SideClaim>>(std::vector<SideClaim>());
   if (!claims) return Error{fmt::format("{}: {}", picture.path.string(), claims.error().message)};
-  Georeference said = tags->value_or(Georeference{});
+  Georeference said = own->value_or(Georeference{});
   for (const SideClaim& claim : *claims) {
     if (Status added = add_claim(said, claim, picture); !added) return contradiction(picture, added.error().message);
   }

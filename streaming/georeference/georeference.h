@@ -8,34 +8,36 @@
 
 #include "base/result.h"
 #include "streaming/georeference/affine.h"
-#include "streaming/raster/byte_file.h"
 
 namespace terrella {
+
+class RasterFile;
 
 /// Path and size of a picture.
 struct PictureFile {
   std::filesystem::path path;
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
-  /// Bytes of a TIFF that is no local file: `path` then is its name, and no files beside it count.
-  std::shared_ptr<const ByteFile> bytes = {};
+  /// The opened raster; null for JPEG, PNG and WebP. Of a raster that is no local file, `path` is the name.
+  std::shared_ptr<const RasterFile> raster = {};
 };
 
 /// Statements of a picture and the files beside it about its place, neither judged nor transformed.
 struct Georeference {
   std::string source;               ///< origin of the statement: "GeoTIFF tags", "planet.tfw"; several with commas
+  std::string fault;                ///< reason why the statement cannot be read; empty: it can
   std::optional<Affine> transform;  ///< from pixels to the coordinate system; half-pixel offsets are already applied
   std::string crs;                  ///< text for Crs::open(); empty if not stated
   std::string crs_title;            ///< name used in the file; may be empty
   bool gdal_reads_crs = true;       ///< false: the system comes from a .prj, which only Terrella reads
   bool pixel_is_point = false;      ///< the file gives coordinates of pixel centres
-  bool has_control_points = false;  ///< used instead of a transform
-  bool has_camera_model = false;    ///< RPC coefficients
+  std::string points;               ///< points by which GDAL resamples it onto the transform; empty: it is a grid
+  bool has_control_points = false;  ///< a file beside the picture states them instead of a transform
 };
 
-/// Reads the GeoTIFF tags and the files beside the picture; none if they state no place. The error names the file, the
-/// damage or contradiction, and a cure. Without `with_crs`, damaged GeoKeys are no error, because the user has named
-/// the coordinate system. thread: any
+/// Returns what the picture's header and the files beside it say; none if they state no place. The error names the
+/// file, the damage or contradiction, and a cure. Without `with_crs`, a system that cannot be read is no error, because
+/// the user has named one. thread: any
 [[nodiscard]] Result<std::optional<Georeference>> read_georeference(const PictureFile& picture, bool with_crs = true);
 
 }  // namespace terrella

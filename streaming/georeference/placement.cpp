@@ -9,6 +9,7 @@
 #include "streaming/georeference/crs_text.h"
 #include "streaming/georeference/gdal_advice.h"
 #include "streaming/georeference/warp_extent.h"
+#include "streaming/raster/raster_file.h"
 
 namespace terrella {
 namespace {
@@ -119,14 +120,11 @@ Result<Placement> place_without_crs(const PictureFile& picture, const Georeferen
       std::hypot(t.x_per_row, t.y_per_row), t.is_turned() ? ", turned" : "", name_system_command(picture))};
 }
 
-/// Error for control points and camera models.
+/// Error for control points beside a picture.
 Error points_alone(const PictureFile& picture, const Georeference& said, const std::string& to_crs) {
-  const char* what = said.has_camera_model ? "a camera model (RPC)" : "ground control points";
-  return Error{fmt::format(
-      "{}: its {} place it by {}, not by a grid; resample it: {}", picture.path.string(), said.source, what,
-      warp_command(
-          picture,
-          {.to_crs = to_crs, .from_crs = said.crs.empty() ? "EPSG:CODE" : "", .by_rpc = said.has_camera_model}))};
+  return Error{fmt::format("{}: its {} place it by ground control points, not by a grid; resample it: {}",
+                           picture.path.string(), said.source,
+                           warp_command(picture, {.to_crs = to_crs, .from_crs = said.crs.empty() ? "EPSG:CODE" : ""}))};
 }
 
 /// A picture while its place is being found.
@@ -182,7 +180,7 @@ Status place_in(Case& of, const Crs& crs) {
     const auto width = static_cast<double>(of.picture.width_px), height = static_cast<double>(of.picture.height_px);
     of.said.transform =
         Affine{b->west, (b->east - b->west) / width, 0.0, b->north, 0.0, (b->south - b->north) / height};
-  } else if (of.said.has_control_points || of.said.has_camera_model) {
+  } else if (of.said.has_control_points) {
     return points_alone(of.picture, of.said, crs.degrees_text());
   }
   if (of.said.transform) return place_transform(of, crs);
@@ -196,12 +194,14 @@ Status place_in(Case& of, const Crs& crs) {
 /// Place without any coordinate system.
 Status place_nowhere_named(Case& of) {
   if (of.words.say_place()) return place_by_words(of, nullptr);
-  if (of.said.has_control_points || of.said.has_camera_model) return points_alone(of.picture, of.said, "EPSG:4326");
+  if (of.said.has_control_points) return points_alone(of.picture, of.said, "EPSG:4326");
   if (!of.said.transform) return Done{};
   const auto place = place_without_crs(of.picture, of.said);
   if (!place) return place.error();
   of.placed.placement = *place;
   of.placed.projected = CrsPlace{*of.said.transform, "EPSG:4326"};
+  of.placed.remarks.push_back(claim_text(of.picture, of.said, {}) +
+                              " name no coordinate system; its numbers are taken for degrees");
   return Done{};
 }
 
@@ -220,7 +220,7 @@ void remark_on(Case& of, const Crs* crs) {
                       crs_text(crs->facts(), {})));
     }
   }
-  if (of.words.say_place() && (said->transform || said->has_control_points || said->has_camera_model)) {
+  if (of.words.say_place() && (said->transform || said->has_control_points)) {
     of.placed.remarks.push_back(fmt::format("{}: its {} state a place; {} is used instead", name, said->source,
                                             of.words.bounds ? "--bounds" : "--west"));
   }
@@ -270,6 +270,7 @@ Result<Placement> place_of_words(const PictureFile& picture, const PlaceWords& w
 
 Result<PlacedPicture> place_picture(const PictureFile& picture, const PlaceWords& words) {
   Case of{.picture = picture, .words = words};
+  if (picture.raster) of.placed.remarks = picture.raster->header().remarks;
   if (Status read = read_said(of); !read) return read.error();
   if (of.said.crs.empty()) {
     remark_on(of, nullptr);

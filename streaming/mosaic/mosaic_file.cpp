@@ -6,30 +6,23 @@
 #include <cerrno>
 #include <cstring>
 
-#include "streaming/file_bytes.h"
-#include "streaming/raster/tiff_pyramid.h"
-#include "streaming/tiff_open.h"
+#include "streaming/raster/raster_pixels.h"
 
 namespace terrella {
 namespace {
 
-Status read_tiff_header(MosaicFile& file) {
-  const auto pyramid = read_pyramid(file.path);
-  if (!pyramid) return pyramid.error();
-  for (const TiffLevel& level : pyramid->levels) {
-    const TiffPicture& picture = level.part.picture;
-    file.sizes.emplace_back(picture.width_px, picture.height_px);
-    file.by_rows = file.by_rows || !picture.tiled || (level.mask && !level.mask->picture.tiled);
+void read_raster_header(const RasterHeader& header, MosaicFile& file) {
+  for (const RasterShape& level : header.levels) {
+    file.sizes.emplace_back(level.width_px, level.height_px);
+    file.by_rows = file.by_rows || !level.has_blocks();
   }
-  const TiffSamples& samples = pyramid->whole().part.picture.samples;
-  file.one_band = samples.colour == TiffColour::gray || samples.colour == TiffColour::gray_inverted;
-  file.is_numbers = file.one_band && samples.type != SampleType::uint8;
-  const BandMetadata band = pyramid->metadata.band(0);
+  const RasterBand& band = header.bands.front();
+  file.one_band = !colour_bands(header).in_colours();
+  file.is_numbers = file.one_band && band.type != SampleType::uint8;
   file.unit = band.unit;
   file.scale = band.scale;
   file.offset = band.offset;
-  file.own_nodata = pyramid->metadata.nodata;
-  return Done{};
+  file.own_nodata = band.nodata;
 }
 
 }  // namespace
@@ -47,12 +40,13 @@ Status look_at(MosaicFile& file) {
 }
 
 Status read_header(MosaicFile& file, const MosaicReading& reading) {
-  const auto head = read_head(file.path, 8);
-  if (!head) return Error{head.error().message};
-  if (begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) return read_tiff_header(file);
-  if (!reading.measure) return Error{file.path.string() + ": is no TIFF"};
   const auto picture = reading.measure(file.path);
   if (!picture) return picture.error();
+  file.raster = picture->raster;
+  if (file.raster) {
+    read_raster_header(file.raster->header(), file);
+    return Done{};
+  }
   file.sizes.emplace_back(picture->width_px, picture->height_px);
   file.by_rows = true;
   file.one_band = true;  // the reader of heights refuses others

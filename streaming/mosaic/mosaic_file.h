@@ -16,10 +16,10 @@
 
 namespace terrella {
 
-/// Functions that measure and open the files of a mosaic. The defaults read TIFFs.
+/// Functions that measure and open the files of a mosaic. The defaults read all by GDAL.
 struct MosaicReading {
-  /// Size of a picture that is no TIFF. Reads the header alone.
-  std::function<Result<PictureFile>(const std::filesystem::path&)> measure = {};
+  /// Opens a picture; reads the header alone.
+  std::function<Result<PictureFile>(const std::filesystem::path&)> measure = measure_raster;
   std::function<Result<std::unique_ptr<RasterSource>>(const std::filesystem::path&, const CrsPlace&,
                                                       const RasterOptions&)>
       open = open_raster;
@@ -28,6 +28,7 @@ struct MosaicReading {
 /// Facts from the header of a file. They are kept in the cache, so that a second start opens no file.
 struct MosaicFile {
   std::filesystem::path path;
+  std::shared_ptr<const RasterFile> raster = {};  ///< the opened file while its place is read; null for plain pictures
   std::int64_t bytes = 0;
   std::int64_t changed_ns = 0;                               ///< time of the last change, nanoseconds since 1970
   std::vector<std::pair<std::int64_t, std::int64_t>> sizes;  ///< sizes of the levels, pixels, the coarsest first

@@ -81,6 +81,7 @@ class HeaderReader {
     auto place = placer->place(file, entry.words);
     placers_.give_back(std::move(placer));
     if (!place) return place.error();
+    file.raster.reset();
     return PlacedFile{.file = std::move(file), .place = *std::move(place), .mark = mark};
   }
 

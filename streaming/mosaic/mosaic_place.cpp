@@ -152,7 +152,7 @@ Result<MosaicPlace> MosaicPlacer::place_at(const MosaicFile& file, const CrsPlac
 }
 
 Result<CrsPlace> MosaicPlacer::read_place(const MosaicFile& file, const PlaceWords& words, LatitudeKind& latitude) {
-  const PictureFile picture{file.path, file.width_px(), file.height_px()};
+  const PictureFile picture{file.path, file.width_px(), file.height_px(), file.raster};
   if (words == PlaceWords{}) {
     const auto said = read_georeference(picture);
     if (said && *said && (*said)->transform && !(*said)->crs.empty()) {

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/georeference/affine.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/numbers/coding_options.h"
 #include "streaming/numbers/number_statistics.h"
 #include "streaming/raster/raster_source.h"
 
 namespace terrella {
 
-struct TiffPyramid;
+class RasterFile;
 
 struct RasterOptions {
   bool heights = false;  ///< blocks are numbers: metres = stored value · scale + offset
@@ -32,15 +32,18 @@ struct RasterOptions {
   int jobs = 0;  ///< threads that decode rows; 0: one for each core. Blocks are decoded by the thread that reads them
 };
 
-/// Opens a TIFF or BigTIFF as a raster, with its overviews (in the file, or FILE.ovr) and masks. Tiles are decoded from
-/// the file by themselves. Striped pictures are decoded once, when blocks are asked for and then kept. For other
-/// picture files see streaming/cut.h. The error names the file, the fault and a cure. Blocks.
-/// thread: any
+/// Opens a raster of any format that GDAL reads, with its overviews and masks. Tiles are decoded by themselves. Levels
+/// in strips are decoded once, when blocks are asked for and then kept. For JPEG, PNG and WebP see streaming/cut.h. The
+/// error names the file, the fault and a cure. Blocks. thread: any
 [[nodiscard]] Result<std::unique_ptr<RasterSource>> open_raster(const std::filesystem::path& path,
                                                                 const CrsPlace& place,
                                                                 const RasterOptions& options = {});
 
-/// Facts about a TIFF for a person.
+/// Opens a raster and measures it; reads the header alone. The error names the file, the fault and a cure. Blocks.
+/// thread: any
+[[nodiscard]] Result<PictureFile> measure_raster(const std::filesystem::path& path);
+
+/// Facts about a raster for a person.
 struct RasterFacts {
   std::int64_t width_px = 0;
   std::int64_t height_px = 0;
@@ -60,23 +63,20 @@ struct RasterFacts {
   std::vector<std::string> notes;
 };
 
-/// Choice of the numbers of a TIFF that are described.
+/// Choice of the numbers of a raster that are described.
 struct DescribedBand {
   int band = 0;                       ///< counted from 1; 0: the only one
   std::optional<double> nodata = {};  ///< instead of the file's
 };
 
-/// Describes a pyramid. `with_values` reads at most 64 tiles or rows of the coarsest level, for the statistics and for
+/// Describes a raster. `with_values` reads at most 64 blocks or rows of the coarsest level, for the statistics and for
 /// notes about them. Blocks. thread: any
-[[nodiscard]] Result<RasterFacts> describe_raster(const TiffPyramid& pyramid, const DescribedBand& wanted,
+[[nodiscard]] Result<RasterFacts> describe_raster(const RasterFile& file, const DescribedBand& wanted,
                                                   bool with_values);
-/// Reads the facts of a file, with its values; none if the file is no TIFF. Blocks. thread: any
-[[nodiscard]] Result<std::optional<RasterFacts>> describe_raster(const std::filesystem::path& path,
-                                                                 const DescribedBand& wanted = {});
 
-/// True for a TIFF that is shown as numbers unless the user says otherwise: gray, and not of 8 bits or fewer. thread:
+/// True for a raster that is shown as numbers unless the user says otherwise: gray, and not of 8 bits or fewer. thread:
 /// any
-[[nodiscard]] bool holds_numbers(const TiffPyramid& pyramid);
+[[nodiscard]] bool holds_numbers(const RasterFile& file);
 /// The same for a file; false for a file that cannot be read. Blocks. thread: any
 [[nodiscard]] bool holds_numbers(const std::filesystem::path& path);
 

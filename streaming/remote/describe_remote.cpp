@@ -9,7 +9,6 @@
 #include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/http/http_address.h"
-#include "streaming/other_formats.h"
 #include "streaming/remote/gdal_wms/gdal_wms.h"
 #include "streaming/remote/remote_tms.h"
 #include "streaming/remote/source_json.h"
@@ -152,7 +151,6 @@ class Describing {
       case Kind::json:
         return follow(text, address, options);
       default:
-        if (const std::string hint = local_hint(address, text); !hint.empty()) return Error{where + ": " + hint};
         return Error{where +
                      ": neither a URL template ({z}, {x} and {y}) nor the description of a tile set: WMTS or WMS "
                      "capabilities, tilemapresource.xml, <GDAL_WMS> or JSON"};
@@ -193,12 +191,6 @@ class Describing {
     return interpret(kind, *document, source.address, merged);
   }
 
-  /// Advice for a label of a planetary archive (PDS4) on disk, which is XML too.
-  static std::string local_hint(const Url& address, std::string_view text) {
-    if (has_scheme(address.with_secrets())) return {};
-    return convert_hint(address.with_secrets(), text.substr(0, kFormatHeadBytes));
-  }
-
   static Url with_scheme(const Url& address) {
     if (has_scheme(address.with_secrets())) return address;
     std::error_code ignored;
@@ -208,6 +200,13 @@ class Describing {
   const FetchDocument& fetch_;
 };
 
+/// True for the label of a raster in a planetary archive (PDS4) on disk, which is XML too.
+bool is_raster_label(const std::filesystem::path& path) {
+  const auto head = read_head(path, 4096);
+  const auto text = head ? std::string_view(reinterpret_cast<const char*>(head->data()), head->size()) : "";
+  return text.find("<Product_Observational") != std::string_view::npos;
+}
+
 }  // namespace
 
 bool names_its_kind(const Url& tile_set) { return kind_of_name(tile_set.with_secrets()) != Kind::unknown; }
@@ -216,8 +215,8 @@ bool is_remote(const Url& tile_set) {
   const std::string_view text = tile_set.with_secrets();
   if (has_scheme(text) || text.find("{z}") != std::string_view::npos) return true;
   const std::string name = lower_case(file_name(text));
-  return (name.ends_with(".json") && name != kTileSetFile) || (name.ends_with(".xml") && name != kTmsFile) ||
-         name.ends_with(".wms");
+  return (name.ends_with(".json") && name != kTileSetFile) ||
+         (name.ends_with(".xml") && name != kTmsFile && !is_raster_label(text)) || name.ends_with(".wms");
 }
 
 Result<RemoteTileSet> describe_remote(const Url& tile_set, const RemoteOptions& options, const FetchDocument& fetch) {

@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "streaming/raster/file_source.h"
 #include "streaming/raster/rows/row_raster.h"
-#include "streaming/raster/tiff_source.h"
-#include "streaming/remote_tiff/remote_pyramid.h"
+#include "streaming/remote_tiff/remote_raster.h"
 #include "tiles/request_desk.h"
 
 namespace terrella {
@@ -40,8 +40,8 @@ void doubt(RangeCache& cache, const std::vector<FilePiece>& pieces) {
 
 class RemoteTiffSource : public RemoteTiff {
  public:
-  RemoteTiffSource(std::shared_ptr<RemoteFile> file, std::unique_ptr<TiffSource> tables,
-                   std::unique_ptr<TiffSource> decoder)
+  RemoteTiffSource(std::shared_ptr<RemoteFile> file, std::unique_ptr<FileSource> tables,
+                   std::unique_ptr<FileSource> decoder)
       : file_(std::move(file)),
         tables_(std::move(tables)),
         decoder_(std::move(decoder)),
@@ -92,26 +92,35 @@ class RemoteTiffSource : public RemoteTiff {
     if (!found) {
       std::string fault = file_->take_fault();
       if (!fault.empty()) return TileFailure{MissingKind::failed, std::move(fault)};
-      return TileFailure{
-          MissingKind::broken,
-          fmt::format("{}: block {}, {} of level {} cannot be read: {}; the file is truncated or damaged",
-                      file_->name(), block.x, block.y, block.level, found.error().message)};
+      return unreadable(block, found.error().message);
     }
     std::vector<ByteRange> ranges;
-    for (const ByteSpan& span : *found) ranges.push_back({.offset = span.offset, .length = span.size});
+    const std::uint64_t end = file_->held()->size();
+    for (const ByteSpan& span : *found) {
+      if (span.offset > end || span.size > end - span.offset) return unreadable(block, "its bytes lie beyond the end");
+      ranges.push_back({.offset = span.offset, .length = span.size});
+    }
     return ranges;
   }
 
   /// Bytes that do not decode may be due to a wrong table of tiles.
   [[nodiscard]] SpanCheck check_of(const TileId& block) override {
     return [this, block](const ByteRange& span, std::span<const std::byte> bytes) {
-      Status good = decoder_->check(block, {.offset = span.offset, .size = span.length}, bytes);
+      const auto copy = std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+      const RemoteFile::Loan loan(*file_, {{span.offset, copy}});
+      Status good = decoder_->check(block, {.offset = span.offset, .size = span.length});
       if (!good) static_cast<void>(file_->doubt_directories());
       return good;
     };
   }
 
  private:
+  [[nodiscard]] TileFailure unreadable(const TileId& block, const std::string& why) const {
+    return {MissingKind::broken,
+            fmt::format("{}: block {}, {} of level {} cannot be read: {}; the file is truncated or damaged",
+                        file_->name(), block.x, block.y, block.level, why)};
+  }
+
   [[nodiscard]] Bytes cached(const ByteRange& span) {
     if (file_->cache() == nullptr) return nullptr;
     auto bytes = file_->cache()->find_span(span);
@@ -218,8 +227,8 @@ class RemoteTiffSource : public RemoteTiff {
   }
 
   const std::shared_ptr<RemoteFile> file_;
-  const std::unique_ptr<TiffSource> tables_;               ///< looks up the bytes of blocks, waiting for the network
-  const std::unique_ptr<TiffSource> decoder_;              ///< decodes the blocks whose bytes are there
+  const std::unique_ptr<FileSource> tables_;               ///< looks up the bytes of blocks, waiting for the network
+  const std::unique_ptr<FileSource> decoder_;              ///< decodes the blocks whose bytes are there
   std::mutex mutex_;                                       ///< guards blocks_
   std::unordered_map<std::uint64_t, WishedBlock> blocks_;  ///< by the wish's number
   RequestDesk desk_;
@@ -229,10 +238,11 @@ class RemoteTiffSource : public RemoteTiff {
 
 }  // namespace
 
-Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile> file, TiffPyramid pyramid,
-                                                     const CrsPlace& place, const RasterOptions& options) {
-  if (!pyramid.whole().has_blocks()) return no_blocks(file->name(), pyramid);
-  auto tables = make_tiff_source(std::move(pyramid), file->name(), place, options);
+Result<std::unique_ptr<RemoteTiff>> RemoteTiff::make(std::shared_ptr<RemoteFile> file,
+                                                     std::shared_ptr<const RasterFile> raster, const CrsPlace& place,
+                                                     const RasterOptions& options) {
+  if (!raster->header().whole().has_blocks()) return no_blocks(*raster);
+  auto tables = make_file_source(std::move(raster), place, options);
   if (!tables) {
     const std::string fault = file->take_fault();
     return fault.empty() ? tables.error() : Error{fault};

@@ -7,8 +7,8 @@
 
 #include "base/result.h"
 #include "streaming/raster/open_raster.h"
+#include "streaming/raster/raster_file.h"
 #include "streaming/raster/raster_source.h"
-#include "streaming/raster/tiff_pyramid.h"
 #include "streaming/remote_tiff/remote_file.h"
 
 namespace terrella {
@@ -16,9 +16,10 @@ namespace terrella {
 /// A TIFF on a server as a raster whose blocks are fetched (RasterSource::remote()).
 class RemoteTiff : public RasterSource {
  public:
-  /// Makes a raster of a pyramid that read_remote_pyramid() read. Fails for a picture in strips that has no blocks.
+  /// Makes a raster of one that open_remote_raster() opened. Fails for a picture in strips that has no blocks.
   /// Waits for the network if the picture needs a stretch that its metadata do not state. thread: any
-  [[nodiscard]] static Result<std::unique_ptr<RemoteTiff>> make(std::shared_ptr<RemoteFile> file, TiffPyramid pyramid,
+  [[nodiscard]] static Result<std::unique_ptr<RemoteTiff>> make(std::shared_ptr<RemoteFile> file,
+                                                                std::shared_ptr<const RasterFile> raster,
                                                                 const CrsPlace& place, const RasterOptions& options);
   /// Looks up the bytes of a block. Waits for the network if its part of the table of tiles is not there. Fails if that
   /// part cannot be had (failed) or is damaged (broken). The reason names the address. thread: any, one at a time

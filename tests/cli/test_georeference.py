@@ -220,12 +220,12 @@ class Refused(GeoreferenceTest):
             corners += ["-gcp", x, y, lon, lat]
         for name in ("in.tif", "my dad's $map.tif"):
             self.picture(name, "-a_srs", "EPSG:4326", *corners, size=(64, 32))
-            self.assert_cured(self.assert_refused(name, "ground control points", "gdalwarp"))
+            self.assertIn("ground control points", self.assert_done("info", name).stdout)
+            self.assert_drawn_as_gdal_says(name, "EPSG:4326")
 
     def test_camera_model(self):
         self.write("in.tif", tiff(64, 32, [(50844, 12, [1.0] * 92)]))
-        message = self.assert_refused("in.tif", "RPC", "gdalwarp -rpc")
-        self.assertIn("in-degrees.tif", commands_in(message))
+        self.assert_refused("in.tif", "camera model (RPC) that cannot be used", "--bounds")
 
     def test_world_files_in_metres(self):
         # 2:1, and yet no whole planet.
@@ -481,18 +481,12 @@ HOSTILE = {
     "scale without tie point": [DEGREES, (SCALE, 12, [0.25, 0.25, 0])],
     "scale of one number": [DEGREES, (SCALE, 12, [0.25]), HERE[1]],
     "tie point of three numbers": [DEGREES, HERE[0], (TIES, 12, [0.0, 0.0, 0.0])],
-    "two tie points": [DEGREES, HERE[0], (TIES, 12, HERE[1][2] * 2)],
     "tie point without scale": [DEGREES, HERE[1]],
     "matrix of 12": [DEGREES, (MATRIX, 12, [0.25] * 12)],
     "matrix of zeros": [DEGREES, (MATRIX, 12, [0.0] * 16)],
     "matrix of NaN": [DEGREES, (MATRIX, 12, [NAN] * 16)],
-    "matrix that contradicts": [DEGREES, *HERE, (MATRIX, 12, [1.0, 0, 0, 10, 0, -1, 0, 50, 0, 0, 0, 0, 0, 0, 0, 1])],
     "keys of bytes": [(34735, 1, list(range(32))), *HERE],
-    "keys of doubles": [(34735, 12, [1.0, 1, 0, 3]), *HERE],
-    "scale of shorts": [DEGREES, (SCALE, 3, [1, 1, 1]), HERE[1]],
     "keys of one number": [(34735, 3, [1]), *HERE],
-    "keys that count 65535": [(34735, 3, [1, 1, 0, 65535, 1024, 0, 1, 2]), *HERE],
-    "keys 65535 long": [(34735, 3, ([1, 1, 0, 16383] + [1024, 0, 1, 2] * 16384)[:65535]), *HERE],
     "keys of another version": [(34735, 3, [9, 1, 0, 1, 1024, 0, 1, 2]), *HERE],
     "key beyond the numbers": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [1737400.0]), *HERE],
     "key of 65535 numbers": [geo_keys((1024, 2), (2048, 32767), (2057, DOUBLES, 65535, 0)), (DOUBLES, 12, [1737400.0]),
@@ -500,25 +494,19 @@ HOSTILE = {
     "short key in doubles": [geo_keys((1024, DOUBLES, 1, 0), (2048, 4326)), (DOUBLES, 12, [2.0]), *HERE],
     "text key in doubles": [geo_keys(*KEYS, (1026, DOUBLES, 40000, 60000)), (DOUBLES, 12, [2.0]), *placed_at(10.1, 50, 0.25, 0.25)],
     "radius of NaN": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [NAN, NAN]), *HERE],
-    "radius of 0": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [0.0, 0.0]), *HERE],
     "radius of 1e308": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [HUGE, HUGE]), *HERE],
     "negative radius": [geo_keys(*MOON_KEYS), (DOUBLES, 12, [-1737400.0, -1737400.0]), *HERE],
     "unknown geographic code": [geo_keys((1024, 2), (1025, 1), (2048, 31999)), *HERE],
     "geographic code of a projected system": [geo_keys((1024, 2), (1025, 1), (2048, 32633)), *HERE],
-    "projected code of a geographic system": [geo_keys((1024, 1), (1025, 1), (3072, 4326)), *HERE],
     "unknown projected code": [geo_keys((1024, 1), (1025, 1), (3072, 32999)), *HERE],
     "projected without a projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326)), *HERE],
     "unknown projection": [geo_keys((1024, 1), (1025, 1), (2048, 4326), (3072, 32767), (3074, 32767), (3075, 9999)), *HERE],
-    "geographic and projected": [geo_keys((1024, 2), (1025, 1), (2048, 4326), (3072, 32633)), *HERE],
     "geocentric": [geo_keys((1024, 3), (1025, 1), (2048, 4326)), *HERE],
     "unknown model": [geo_keys((1024, 77), (1025, 1), (2048, 4326)), *HERE],
-    "unknown raster type": [geo_keys((1024, 2), (1025, 77), (2048, 4326)), *HERE],
     "wgs 84 with the moon's radius": [geo_keys(*KEYS, (2057, DOUBLES, 1, 0)), (DOUBLES, 12, [1737400.0]), *HERE],
     "wgs 84 in radians": [geo_keys(*KEYS, (2054, 9101)), *HERE],
-    "model without a system": [geo_keys((1024, 2), (1025, 1)), *HERE],
     "projected system and no place": [geo_keys((1024, 1), (1025, 1), (3072, 32633))],
     "metres in degrees": [DEGREES, *placed_at(500000, 4650000, 10, 10)],
-    "keys that count 2^31": [(34735, 3, [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326], 2**31), *HERE],
     "scale that counts 2^31": [DEGREES, (SCALE, 12, [0.25, 0.25, 0.0], 2**31), HERE[1]],
     "tie points that count 2^32 - 1": [DEGREES, HERE[0], (TIES, 12, [0.0, 0, 0, 10, 50, 0], 2**32 - 1)],
     "a megabyte of WKT": [geo_keys((1024, 1), (1025, 1), (3072, 32767), (3073, TEXT, 60000, 0)),
@@ -539,7 +527,7 @@ class Hostile(GeoreferenceTest):
                 (self.folder / "out.gpkg").unlink(missing_ok=True)
                 self.write("in.tif", tiff(64, 32, tags))
                 message = self.assert_refused("in.tif")
-                self.assertRegex(message, "--crs|--bounds|gdal", message)
+                self.assertRegex(message, "--crs|--bounds|--body|gdal", message)
                 self.assertNotIn("PROJ:", message)
                 self.assertEqual(len(message.strip().splitlines()), 1, message)
                 info = self.info("in.tif")
@@ -548,7 +536,7 @@ class Hostile(GeoreferenceTest):
 
     def test_the_advice_for_what_cannot_be_believed(self):
         self.write("in.tif", tiff(64, 32, HOSTILE["keys of bytes"]))
-        command = commands_in(self.assert_refused("in.tif", "GeoKeyDirectory"))
+        command = commands_in(self.assert_refused("in.tif", "GeoTIFF tags"))
         for word, value in (("EPSG:CODE", "EPSG:4326"), ("WEST NORTH EAST SOUTH", "10 50 26 42")):
             command = command.replace(word, value)
         done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True, timeout=60)

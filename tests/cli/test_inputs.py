@@ -133,28 +133,20 @@ class BadPictures(ProgramTest):
         self.assert_fails(FAILED, "info", "/dev/zero", says=["/dev/zero"])
 
     def test_pictures_of_other_formats(self):
-        """Each by the start of its file: the command that makes a picture of it that is read."""
+        """The start of a file alone, which GDAL recognizes and cannot read."""
         starts = {"a.jp2": b"\0\0\0\x0cjP  \r\n\x87\n", "a.vrt": b"<VRTDataset rasterXSize='2' rasterYSize='1'>",
                   "a.nc": b"CDF\1\0\0\0\0", "b.nc": b"\x89HDF\r\n\x1a\n", "a.bmp": b"BM\x36\0\0\0\0\0",
                   "a.gif": b"GIF89a", "a.img": b"PDS_VERSION_ID = PDS3\r\n", "a.cub": b"Object = IsisCube\n"}
         for name, start in starts.items():
             with self.subTest(name):
                 picture = self.write(name, start)
-                self.assert_refused(picture, "gdal_translate -of COG", name.split(".")[0] + ".tif")
-                self.assert_fails(FAILED, "info", picture, says=["gdal_translate -of COG"])
+                self.assert_refused(picture)
+                self.assert_fails(FAILED, "info", picture, says=[name])
 
     def test_what_is_neither_names_pictures_first(self):
         letter = self.write("letter.txt", b"Dear Sir or Madam,\n" * 100)
         done = self.assert_fails(FAILED, "render", letter, "-o", "out.png", says=["JPEG, PNG, WebP, TIFF", "GeoPackage"])
         self.assertLess(done.stderr.index("JPEG, PNG, WebP, TIFF"), done.stderr.index("GeoPackage"))
-
-    def test_gdals_command_makes_a_picture_that_is_read(self):
-        self.write("plain.png", png(64, 32))
-        subprocess.run(["gdal_translate", "-q", "-of", "VRT", "plain.png", "odd name.vrt"], cwd=self.folder, check=True)
-        done = self.assert_fails(FAILED, "cut", "odd name.vrt", "-o", "out.gpkg", says=["VRT"])
-        command = done.stderr[done.stderr.index("gdal_translate"):]
-        subprocess.run(command, cwd=self.folder, shell=True, check=True, capture_output=True)
-        self.assert_done("cut", "odd name.tif", "-o", "out.gpkg")
 
     def test_jpeg_that_is_not_two_to_one_says_what_to_do(self):
         self.assert_refused(NATURAL_EARTH / "0/0/0.jpg", "--bounds", "256")

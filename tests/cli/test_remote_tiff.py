@@ -253,7 +253,7 @@ class CutTest(RemoteTiffTest):
     def test_what_cannot_be_cut_is_named(self):
         with range_server(self.planet(), name="a.tif") as (url, _):
             self.assert_fails(FAILED, "cut", url, url, "-o", "tiles", says=["alone"])
-        with range_server(self.planet("-b", "1", "-b", "1", "-b", "1"), name="a.tif") as (url, _):
+        with range_server(self.planet("-b", "1", "-b", "1", "-b", "1", "-colorinterp", "red,green,blue"), name="a.tif") as (url, _):
             self.assert_fails(FAILED, "cut", url, "--elevation", "-o", "tiles", says=["a.tif", "a picture in colours"])
         self.assert_fails(FAILED, "cut", "http://127.0.0.1:1/a.tif", "-o", "tiles", says=["127.0.0.1"])
 

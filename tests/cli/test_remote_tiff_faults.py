@@ -158,18 +158,17 @@ class RefusedTest(RemoteTiffTest):
         offsets = struct.unpack_from("<I", good, tags[324] + 8)[0]
         count = struct.unpack_from("<I", good, tags[324] + 4)[0]
         cases = {
-            "no TIFF": (b"<html>" + bytes(1000), "not a TIFF"),
-            "head alone": (good[:8], "not a TIFF"),
+            "no TIFF": (b"<html>" + bytes(1000), "no raster"),
+            "head alone": (good[:8], "TIFF directory"),
             "cut in the directory": (good[:first + 30], "TIFF"),
             "cut in the tiles": (good[:-len(good) // 2], "beyond the end"),
-            "directories in a circle": (changed(("<I", entries[-1] + 12, first)), "circle"),
             "no width": (changed(("<HHI", tags[256] + 2, 2, 1, 0)), ""),
-            "2^31 pixels": (changed(("<HII", tags[256] + 2, 4, 1, 1 << 31)), "too many"),
+            "2^31 pixels": (changed(("<HII", tags[256] + 2, 4, 1, 1 << 31)), "Too large image size"),
             "tiles of 2^31": (changed(("<HII", tags[322] + 2, 4, 1, 1 << 31)), ""),
             "offsets of a wrong type": (changed(("<H", tags[324] + 2, 2)), ""),
             "offsets beyond the end": (changed(*(("<I", offsets + 4 * n, 0xFFFFFF00) for n in range(count))),
                                        "beyond the end"),
-            "2^31 tiles": (self.two_to_the_31_tiles(), "table of tiles"),
+            "2^31 tiles": (self.two_to_the_31_tiles(), "Too many blocks"),
             "one tile's bytes for all": (changed(*(("<I", offsets + 4 * n, 8) for n in range(count))), "do not decode"),
         }
         for name, (data, says) in cases.items():

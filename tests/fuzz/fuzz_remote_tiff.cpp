@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "streaming/remote_tiff/remote_pyramid.h"
+#include "streaming/remote_tiff/remote_raster.h"
 #include "streaming/remote_tiff/remote_tiff.h"
 
 namespace {
@@ -100,7 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = terrella::RemoteFile::open(options);
   if (!file) return 0;
   for (const bool heights : {false, true}) {
-    auto pyramid = terrella::read_remote_pyramid(**file);
+    auto pyramid = terrella::open_remote_raster(**file);
     if (!pyramid && pyramid.error().message.empty()) std::abort();
     if (!pyramid) return 0;
     terrella::RasterOptions reading;

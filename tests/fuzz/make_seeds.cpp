@@ -269,25 +269,6 @@ bool write_database(const fs::path& path, const std::string& sql) {
   return written;
 }
 
-/// As fuzz_geo_keys.cpp reads them: UTM zone 33N, and a sinusoidal Mars of the keys' own.
-void write_geo_keys(const fs::path& folder) {
-  const auto seed = [](const std::vector<std::uint16_t>& directory, const std::vector<double>& numbers,
-                       const char* text) {
-    const auto shorts = static_cast<std::uint16_t>(directory.size());
-    std::string bytes(reinterpret_cast<const char*>(&shorts), sizeof(shorts));
-    bytes.append(reinterpret_cast<const char*>(directory.data()), directory.size() * sizeof(std::uint16_t));
-    bytes += static_cast<char>(numbers.size());
-    bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-    return bytes + text;
-  };
-  write(folder / "utm",
-        seed({1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 2, 1026, 34737, 4, 0, 3072, 0, 1, 32633}, {}, "UTM|"));
-  write(folder / "mars",
-        seed({1,    1,     0, 9, 1024, 0, 1, 1,     1025, 0, 1, 1,     2048, 0, 1, 32767, 2057, 34736, 1, 0,
-              2058, 34736, 1, 0, 3072, 0, 1, 32767, 3074, 0, 1, 32767, 3075, 0, 1, 24,    3088, 34736, 1, 2},
-             {3396190.0, 3396190.0, 0.0}, ""));
-}
-
 /// One tile, in a leaf directory, nothing compressed.
 void write_pmtiles(const fs::path& path) {
   const auto tile = *encode_png(picture(255));
@@ -321,7 +302,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   const fs::path folder = argv[1];
-  write_geo_keys(folder / "geo_keys");
   write(folder / "image/a.jpg", *encode_jpeg(picture(255), 80));
   write(folder / "image/a.png", *encode_png(picture(255)));
   write(folder / "image/b.png", *encode_png(picture(100)));

@@ -109,6 +109,14 @@ GdalPixels read_by_gdal(const fs::path& file, int bands, int level) {
   return pixels;
 }
 
+RasterFacts facts_of(const std::filesystem::path& path) {
+  const auto file = RasterFile::open(path);
+  EXPECT_TRUE(file) << file.error().message;
+  const auto facts = describe_raster(**file, {}, true);
+  EXPECT_TRUE(facts) << facts.error().message;
+  return *facts;
+}
+
 CrsPlace some_place() {
   return {.to_crs =
               {.x0 = 10.0, .x_per_column = 0.01, .x_per_row = 0.0, .y0 = 50.0, .y_per_column = 0.0, .y_per_row = -0.01},

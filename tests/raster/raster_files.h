@@ -9,6 +9,7 @@
 #include "codecs/image.h"
 #include "codecs/numbers.h"
 #include "streaming/raster/open_raster.h"
+#include "streaming/raster/raster_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace terrella::test {
@@ -38,6 +39,9 @@ struct GdalPixels {
   }
 };
 GdalPixels read_by_gdal(const std::filesystem::path& file, int bands, int level = -1);
+
+/// Facts of describe_raster() about a file.
+RasterFacts facts_of(const std::filesystem::path& path);
 
 /// A place somewhere on Earth, in degrees.
 CrsPlace some_place();

@@ -20,9 +20,8 @@ std::vector<int> ramp_levels(const std::string& type, double least, double most,
   EXPECT_TRUE(translate(options, folder / "in.raw", folder / "in.tif"));
   const auto source = open_raster(folder / "in.tif", some_place());
   EXPECT_TRUE(source) << source.error().message;
-  const auto facts = describe_raster(folder / "in.tif");
-  EXPECT_TRUE(facts && *facts);
-  if (notes != nullptr) *notes = (*facts)->notes;
+  const RasterFacts facts = facts_of(folder / "in.tif");
+  if (notes != nullptr) *notes = facts.notes;
   const Image image = whole_picture(**source, 0);
   std::vector<int> levels;
   for (int y = 0; y < kSide; ++y) levels.push_back(image.rgba[static_cast<std::size_t>(y * kSide + kSide / 2) * 4]);

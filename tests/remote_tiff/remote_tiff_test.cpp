@@ -9,7 +9,7 @@
 
 #include "raster_files.h"
 #include "served_folder.h"
-#include "streaming/remote_tiff/remote_pyramid.h"
+#include "streaming/remote_tiff/remote_raster.h"
 
 namespace terrella::test {
 namespace {
@@ -65,7 +65,7 @@ TEST_P(RemoteTiffMatrix, EqualsTheFile) {
 
   const auto file = RemoteFile::open({.url = served->url(name), .http = quick_options()});
   ASSERT_TRUE(file) << file.error().message;
-  auto pyramid = read_remote_pyramid(**file);
+  auto pyramid = open_remote_raster(**file);
   ASSERT_TRUE(pyramid) << pyramid.error().message;
   const auto remote = RemoteTiff::make(*file, *std::move(pyramid), some_place(), options);
   ASSERT_TRUE(remote) << remote.error().message;
@@ -135,7 +135,7 @@ class RemoteTiffCacheTest : public testing::Test {
     const auto file = RemoteFile::open(options);
     EXPECT_TRUE(file) << file.error().message;
     if (!file) return {};
-    auto pyramid = read_remote_pyramid(**file);
+    auto pyramid = open_remote_raster(**file);
     EXPECT_TRUE(pyramid) << pyramid.error().message;
     const auto remote = RemoteTiff::make(*file, *std::move(pyramid), some_place(), {});
     EXPECT_TRUE(remote) << remote.error().message;
@@ -168,7 +168,7 @@ TEST_F(RemoteTiffCacheTest, AStoredValueIsExactOnceItsBytesAreThere) {
   ASSERT_TRUE(truth);
   const auto file = RemoteFile::open(options({}));
   ASSERT_TRUE(file) << file.error().message;
-  auto pyramid = read_remote_pyramid(**file);
+  auto pyramid = open_remote_raster(**file);
   ASSERT_TRUE(pyramid) << pyramid.error().message;
   const auto remote = RemoteTiff::make(*file, *std::move(pyramid), some_place(), numbers);
   ASSERT_TRUE(remote) << remote.error().message;

@@ -9,7 +9,7 @@
 #include "raster_files.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/remote/remote_source.h"
-#include "streaming/remote_tiff/remote_pyramid.h"
+#include "streaming/remote_tiff/remote_raster.h"
 #include "streaming/remote_tiff/remote_tiff.h"
 #include "streaming/warp/warp_source.h"
 #include "streaming/warp/web_mercator.h"
@@ -77,7 +77,7 @@ std::shared_ptr<TileSource> SourceFiles::open_remote_tiff() {
   const auto file = RemoteFile::open({.url = served_.url("a.tif"), .http = quick_options()});
   EXPECT_TRUE(file) << file.error().message;
   if (!file) return nullptr;
-  auto pyramid = read_remote_pyramid(**file);
+  auto pyramid = open_remote_raster(**file);
   EXPECT_TRUE(pyramid) << pyramid.error().message;
   if (!pyramid) return nullptr;
   auto raster = RemoteTiff::make(*file, *std::move(pyramid), some_place(), {});

@@ -14,10 +14,9 @@
 #include "streaming/file_bytes.h"
 #include "streaming/other_formats.h"
 #include "streaming/raster/in_parallel.h"
+#include "streaming/raster/picture_kind.h"
+#include "streaming/raster/rows/raster_rows.h"
 #include "streaming/raster/rows/row_raster.h"
-#include "streaming/raster/tiff_coding.h"
-#include "streaming/raster/tiff_level.h"
-#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -28,7 +27,7 @@ using Coarse = std::unique_ptr<RasterSource>;
 /// Longest side that is wished for, pixels.
 constexpr std::int64_t kCoarseSide_px = 1400;
 /// Most tiles that are decoded, one for a pixel.
-constexpr std::int64_t kSampledTiles = 512;
+constexpr double kSampledTiles = 512.0;
 
 /// A picture of fewer pixels that covers the same area.
 struct CoarseShape {
@@ -86,13 +85,13 @@ void put_mean(const float* numbers, std::int64_t count, std::uint8_t* to) {
   std::memcpy(to, &mean, sizeof(mean));
 }
 
-/// Some of a TIFF's rows, or of its tiles.
-struct CoarseTiff {
+/// Some of a raster's rows, or of its tiles.
+struct CoarseRows {
   CoarseShape shape;
-  std::optional<ColourConverter> colours;
-  std::optional<NumberCoding> numbers;  ///< instead of colours
-  std::unique_ptr<TiffRowLevel> by_rows;
-  std::unique_ptr<TiffTileLevel> by_tiles;
+  std::shared_ptr<const RasterFile> file;
+  PixelReading reading;
+  bool numbers = false;                 ///< instead of colours
+  std::unique_ptr<RasterRows> by_rows;  ///< null: tiles are read
   std::vector<std::uint8_t> row{};
   std::vector<float> number_row{};
   std::int64_t next = 0;
@@ -101,13 +100,12 @@ struct CoarseTiff {
   [[nodiscard]] Status put_rows(std::span<std::uint8_t> to) {
     const std::int64_t first = CoarseShape::begin(next, shape.height_px, shape.rows);
     const std::int64_t end = std::max(first + 1, CoarseShape::begin(next + 1, shape.height_px, shape.rows));
-    const std::int64_t strip = by_rows->picture().tiled ? 1 : by_rows->picture().rows_per_strip;
+    const std::int64_t strip = by_rows->shape().tiled ? 1 : by_rows->shape().rows_per_strip;
     const std::int64_t start = (first + end) / 2 / strip * strip;
     const std::int64_t y = start >= first ? start : (first + end) / 2;
     row.resize(numbers ? 0 : static_cast<std::size_t>(shape.width_px) * 4);
     number_row.resize(numbers ? static_cast<std::size_t>(shape.width_px) : 0);
-    Status read =
-        numbers ? by_rows->numbers(y, *numbers, number_row.data()) : by_rows->colours(y, *colours, row.data());
+    Status read = numbers ? by_rows->numbers(y, number_row.data()) : by_rows->colours(y, row.data());
     if (!read) return read;
     for (std::int64_t x = 0; x < shape.columns; ++x) {
       const std::int64_t left = CoarseShape::begin(x, shape.width_px, shape.columns);
@@ -121,74 +119,69 @@ struct CoarseTiff {
 
   /// A pixel for each of some tiles. A tile that cannot be read is transparent; the cut will tell.
   void put_tiles(std::span<std::uint8_t> to) {
-    const TiffPicture& picture = by_tiles->picture();
-    const std::int64_t tile_row = (2 * next + 1) * picture.tile_rows() / (2 * shape.rows);
+    const RasterShape& level = file->header().levels.front();
+    const std::int64_t tile_columns = (level.width_px + level.block_width_px - 1) / level.block_width_px;
+    const std::int64_t tile_rows = (level.height_px + level.block_height_px - 1) / level.block_height_px;
+    const std::int64_t tile_row = (2 * next + 1) * tile_rows / (2 * shape.rows);
     in_parallel(thread_count(0), shape.columns, [&](std::int64_t x) {
-      const std::int64_t column = (2 * x + 1) * picture.tile_columns() / (2 * shape.columns);
-      // A row through the middle is a fair mean, and inside the picture at its lower edge.
-      const std::int64_t high = std::min(picture.tile_height_px, picture.height_px - tile_row * picture.tile_height_px);
-      const std::int64_t wide = std::min(picture.tile_width_px, picture.width_px - column * picture.tile_width_px);
-      const std::int64_t first = high / 2 * picture.tile_width_px;
+      PixelWindow window =
+          window_of_block(file->header(), 0, (2 * x + 1) * tile_columns / (2 * shape.columns), tile_row);
+      // A row through the middle is a fair mean.
+      window.y += window.height_px / 2;
+      window.height_px = 1;
+      const auto wide = static_cast<std::size_t>(window.width_px);
+      std::vector<float> values(numbers ? wide : 0, std::numeric_limits<float>::quiet_NaN());
+      std::vector<std::uint8_t> rgba(numbers ? 0 : wide * 4);
       if (numbers) {
-        const auto tile = by_tiles->numbers(column, tile_row, *numbers);
-        const float none = std::numeric_limits<float>::quiet_NaN();
-        tile ? put_mean(tile->values.data() + first, wide, to.data() + x * 4) : put_mean(&none, 1, to.data() + x * 4);
-      } else if (const auto tile = by_tiles->colours(column, tile_row, *colours)) {
-        put_mean(tile->rgba.data() + first * 4, wide, to.data() + x * 4);
+        static_cast<void>(read_numbers(*file, reading, window, values.data()));
+        put_mean(values.data(), window.width_px, to.data() + x * 4);
+      } else if (read_colours(*file, reading, window, rgba.data())) {
+        put_mean(rgba.data(), window.width_px, to.data() + x * 4);
       }
     });
   }
 };
 
-Result<Coarse> open_coarse_tiff(const fs::path& path, const CrsPlace& place, const CoarseChoice& choice) {
-  auto pyramid = read_pyramid(path);
-  if (!pyramid) return pyramid.error();
-  std::optional<ColourConverter> colours;
-  std::optional<NumberCoding> numbers;
-  if (choice.numbers) {
-    auto coding = numbers_of(*pyramid, choice.coding);
-    if (!coding) return coding.error();
-    numbers = *coding;
-  } else {
-    auto coding = colours_of(*pyramid, choice.coding);
-    if (!coding) return coding.error();
-    colours.emplace(*std::move(coding));
-  }
-  const TiffLevel& level = pyramid->levels.front();
-  const TiffPicture& picture = level.part.picture;
+Result<Coarse> open_coarse_rows(const fs::path& path, const CrsPlace& place, const CoarseChoice& choice) {
+  const auto opened = RasterFile::open(path.string());
+  if (!opened) return opened.error();
+  const RasterHeader& header = (*opened)->header();
+  auto reading = choice.numbers ? numbers_of(**opened, choice.coding) : colours_of(**opened, choice.coding);
+  if (!reading) return reading.error();
+  const RasterShape& picture = header.levels.front();
   const double by = std::max(1.0, static_cast<double>(std::max(picture.width_px, picture.height_px)) / kCoarseSide_px);
   CoarseShape shape{.width_px = picture.width_px, .height_px = picture.height_px};
   shape.columns = std::max<std::int64_t>(1, std::llround(static_cast<double>(picture.width_px) / by));
   shape.rows = std::max<std::int64_t>(1, std::llround(static_cast<double>(picture.height_px) / by));
   // A long compressed strip would be decoded as a whole.
-  if (!picture.tiled && picture.compression != COMPRESSION_NONE &&
+  if (!picture.tiled && header.is_compressed &&
       picture.rows_per_strip > std::max<std::int64_t>(64, 4 * shape.height_px / shape.rows)) {
     return Coarse{};
   }
-  auto tiff = std::make_shared<CoarseTiff>(CoarseTiff{shape, std::move(colours), numbers, {}, {}});
-  const bool tiled = picture.tiled && (!level.mask || level.mask->picture.tiled);
-  const bool many = tiled && picture.tile_columns() * picture.tile_rows() > kSampledTiles;
-  if (many) {
-    const auto columns = static_cast<double>(picture.tile_columns()), rows = static_cast<double>(picture.tile_rows());
-    const double part = std::sqrt(static_cast<double>(kSampledTiles) / (columns * rows));
-    tiff->shape.columns = std::max<std::int64_t>(1, std::llround(columns * part));
-    tiff->shape.rows = std::max<std::int64_t>(1, std::llround(rows * part));
-    tiff->by_tiles = std::make_unique<TiffTileLevel>(level);
+  auto some = std::make_shared<CoarseRows>(CoarseRows{shape, *opened, *reading, choice.numbers, {}});
+  const auto tiles = [](std::int64_t pixels, std::int64_t each) {
+    return static_cast<double>((pixels + each - 1) / each);
+  };
+  const double columns = picture.tiled ? tiles(picture.width_px, picture.block_width_px) : 0.0;
+  const double rows = picture.tiled ? tiles(picture.height_px, picture.block_height_px) : 0.0;
+  if (columns * rows > kSampledTiles) {
+    const double part = std::sqrt(kSampledTiles / (columns * rows));
+    some->shape.columns = std::max<std::int64_t>(1, std::llround(columns * part));
+    some->shape.rows = std::max<std::int64_t>(1, std::llround(rows * part));
   } else {
-    tiff->by_rows = std::make_unique<TiffRowLevel>(level, 0);
+    some->by_rows = std::make_unique<RasterRows>(*opened, 0, *std::move(reading), 0);
   }
-  const CrsPlace at =
-      shrunk(place, pyramid->whole().part.picture.width_px, pyramid->whole().part.picture.height_px, tiff->shape);
+  const CrsPlace at = shrunk(place, header.whole().width_px, header.whole().height_px, some->shape);
   return make_coarse(
-      path, at, tiff->shape,
-      [tiff](std::span<std::uint8_t> row) -> Status {
+      path, at, some->shape,
+      [some](std::span<std::uint8_t> row) -> Status {
         Status read = Done{};
-        if (tiff->by_rows) {
-          read = tiff->put_rows(row);
+        if (some->by_rows) {
+          read = some->put_rows(row);
         } else {
-          tiff->put_tiles(row);
+          some->put_tiles(row);
         }
-        ++tiff->next;
+        ++some->next;
         return read;
       },
       choice.numbers);
@@ -222,9 +215,7 @@ Result<Coarse> open_coarse_jpeg(const fs::path& path, const CrsPlace& place) {
 Result<Coarse> open_coarse_raster(const fs::path& path, const CrsPlace& place, const CoarseChoice& choice) {
   const auto head = read_head(path, kFormatHeadBytes);
   if (!head) return Error{head.error().message};
-  if (begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) {
-    return open_coarse_tiff(path, place, choice);
-  }
+  if (picture_kind(path) == PictureKind::raster) return open_coarse_rows(path, place, choice);
   if (!choice.numbers && sniff_format(*head) == ImageFormat::jpeg) return open_coarse_jpeg(path, place);
   return Coarse{};
 }

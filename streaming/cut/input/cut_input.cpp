@@ -116,7 +116,9 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
     parts.push_back({.path = image, .width_px = part.width_px, .height_px = part.height_px, .place = {}});
     info.has_alpha = info.has_alpha || part.has_alpha;
     if (options.bounds && options.mosaic) continue;
-    const auto place = place_of_part(options, {.path = image, .width_px = part.width_px, .height_px = part.height_px});
+    const auto file = measure_picture(image);
+    if (!file) return file.error();
+    const auto place = place_of_part(options, *file);
     if (!place) return place.error();
     parts.back().place = place->placed.placement;
     latitude = place->latitude;
@@ -158,7 +160,7 @@ Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
     return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
   }
   HeightPictures pictures{.images = options.images, .many = !options.raster && is_many(options)};
-  if (options.raster) pictures.remote = options.raster->pyramid.get();
+  if (options.raster) pictures.remote = options.raster->picture.raster;
   if (is_mosaic(options.images.front())) {
     const auto list = list_of(options);
     if (!list) return list.error();

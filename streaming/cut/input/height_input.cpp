@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include "streaming/cut/input/row_formats.h"
-#include "streaming/raster/tiff_coding.h"
-#include "streaming/tiff_open.h"
+#include "streaming/raster/picture_kind.h"
+#include "streaming/raster/raster_pixels.h"
 
 namespace terrella {
 namespace {
@@ -28,7 +27,7 @@ struct Probe {
   double scale = 1.0;  ///< metres = number · scale + offset
   double offset = 0.0;
   bool eight_bits = false;
-  BandMetadata band = {};
+  RasterBand band = {};
 };
 
 HeightKind kind_of(SampleType type) {
@@ -36,27 +35,24 @@ HeightKind kind_of(SampleType type) {
   return type == SampleType::int8 || type == SampleType::int16 ? HeightKind::int16 : HeightKind::float32;
 }
 
-Result<Probe> probe_pyramid(const TiffPyramid& pyramid, std::optional<std::size_t> band) {
-  const auto numbers = numbers_of(pyramid, {.band = band});
-  if (!numbers) return numbers.error();
-  const SampleType type = pyramid.whole().part.picture.samples.type;
+Result<Probe> probe_raster(const RasterFile& file, std::optional<std::size_t> band) {
+  const auto reading = numbers_of(file, {.band = band});
+  if (!reading) return reading.error();
+  const SampleType type = reading->samples.type;
   return Probe{.kind = kind_of(type),
-               .nodata = numbers->nodata,
-               .scale = numbers->scale,
-               .offset = numbers->offset,
+               .nodata = reading->numbers.nodata,
+               .scale = reading->numbers.scale,
+               .offset = reading->numbers.offset,
                .eight_bits = type == SampleType::uint8 || type == SampleType::int8,
-               .band = pyramid.metadata.band(band.value_or(0))};
+               .band = file.header().bands[band.value_or(0)]};
 }
 
 Result<Probe> probe_file(const fs::path& image, std::optional<std::size_t> band) {
   if (Status regular = check_regular(image); !regular) return regular.error();
-  std::ifstream file(image, std::ios::binary);
-  char head[4] = {};
-  file.read(head, sizeof(head));
-  // If the file is no TIFF, its own reader checks it.
-  if (!begins_as_tiff({head, sizeof(head)})) return Probe{};
-  const auto pyramid = read_pyramid(image);
-  return pyramid ? probe_pyramid(*pyramid, band) : Result<Probe>(pyramid.error());
+  // The reader of a plain picture checks it.
+  if (picture_kind(image) != PictureKind::raster) return Probe{};
+  const auto file = RasterFile::open(image.string());
+  return file ? probe_raster(**file, band) : Result<Probe>(file.error());
 }
 
 /// Drops a nodata value that no sample of this kind can have.
@@ -181,7 +177,7 @@ namespace {
 
 /// The kind of the pictures, which must be one.
 Result<Probe> probe_all(const HeightPictures& pictures, std::optional<std::size_t> band) {
-  if (pictures.remote != nullptr) return probe_pyramid(*pictures.remote, band);
+  if (pictures.remote != nullptr) return probe_raster(*pictures.remote, band);
   std::optional<Probe> first;
   for (const fs::path& image : pictures.images) {
     const auto probe = probe_file(image, band);

@@ -14,7 +14,7 @@ namespace terrella {
 
 struct HeightPictures {
   std::vector<std::filesystem::path> images;
-  const TiffPyramid* remote = nullptr;  ///< pyramid of the one picture that is no file (CutRaster)
+  std::shared_ptr<const RasterFile> remote = {};  ///< the one picture that is no file (CutRaster)
   /// The images are one layer: plan_numbers() leaves out those that cannot be read, and if they differ in kind, scale
   /// or no data, all become floats.
   bool many = false;

@@ -9,8 +9,9 @@
 #include "streaming/cut/input/height_input.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/gdal_advice.h"
-#include "streaming/georeference/geo_tags.h"
 #include "streaming/georeference/grid_fit.h"
+#include "streaming/raster/picture_kind.h"
+#include "streaming/raster/raster_file.h"
 
 namespace terrella {
 namespace {
@@ -123,16 +124,14 @@ std::string place_text(const PicturePlace& place) {
                             t.y_per_column, t.y_per_row, place.from->crs);
 }
 
-Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options) {
-  const auto picture = measure_picture(options.images.front());
-  if (!picture) return picture.error();
-  const auto place = find_place(options, *picture);
+Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options, const PictureFile& picture) {
+  const auto place = find_place(options, picture);
   if (!place) return place.error();
   if (place->kind == PlaceKind::warped || place->kind == PlaceKind::nodes) return std::optional<TileGrid>{};
   CutOptions placed = options;
   placed.bounds = place->bounds;
   placed.latitude = place->latitude;
-  PictureInfo size{.width_px = picture->width_px, .height_px = picture->height_px};
+  PictureInfo size{.width_px = picture.width_px, .height_px = picture.height_px};
   if (place->kind == PlaceKind::rolled) size.width_px = place->turn_px;
   const auto plan = plan_cut(size, placed);
   if (!plan) return plan.error();
@@ -140,8 +139,7 @@ Result<std::optional<TileGrid>> grid_of_pixels(const CutOptions& options) {
 }
 
 Result<PictureFile> measure_picture(const std::filesystem::path& picture) {
-  const auto tags = read_geo_tags(picture);
-  if (tags && *tags) return PictureFile{picture, (*tags)->width_px, (*tags)->height_px};
+  if (picture_kind(picture) == PictureKind::raster) return measure_raster(picture);
   const auto rows = open_rows(picture);
   if (!rows) return rows.error();
   return PictureFile{picture, (*rows)->info().width_px, (*rows)->info().height_px};

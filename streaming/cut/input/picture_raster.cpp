@@ -1,12 +1,12 @@
 #include "streaming/cut/input/picture_raster.h"
 
+#include <cstring>
 #include <utility>
 
 #include "streaming/cut/input/height_samples.h"
 #include "streaming/cut/input/row_reader.h"
-#include "streaming/file_bytes.h"
+#include "streaming/raster/picture_kind.h"
 #include "streaming/raster/rows/row_raster.h"
-#include "streaming/tiff_open.h"
 
 namespace terrella {
 namespace {
@@ -39,10 +39,7 @@ void scale_numbers(const RasterOptions& options, std::span<std::uint8_t> row) {
 Result<std::unique_ptr<RasterSource>> open_picture_raster(const std::filesystem::path& path, const CrsPlace& place,
                                                           const RasterOptions& options) {
   if (Status regular = check_regular(path); !regular) return regular.error();
-  const auto head = read_head(path, 8);
-  if (head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) {
-    return open_raster(path, place, options);
-  }
+  if (picture_kind(path) == PictureKind::raster) return open_raster(path, place, options);
   auto opened = open_picture_rows(path, options);
   if (!opened) return opened.error();
   const PictureInfo& info = (*opened)->info();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "streaming/cut/input/row_formats.h"
-#include "streaming/raster/tiff_samples.h"
+#include "streaming/raster/raster_samples.h"
 
 namespace terrella {
 namespace {
@@ -68,7 +68,7 @@ class PngRows : public RowReader {
 
  private:
   void read_heights(const std::uint8_t* row, std::span<std::uint8_t> numbers) {
-    TiffSamples samples;
+    RasterSamples samples;
     samples.type = SampleType::uint16;
     samples.per_pixel = 1;
     heights_row_.resize(numbers.size() / sizeof(float));

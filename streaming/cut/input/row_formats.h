@@ -24,9 +24,9 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_webp_rows(const std::string& name);
 [[nodiscard]] Result<std::unique_ptr<RowReader>> open_png_rows(File file, std::string name,
                                                                const std::optional<HeightCoding>& heights);
-[[nodiscard]] Result<std::unique_ptr<RowReader>> open_tiff_rows(const std::string& name,
-                                                                const std::optional<HeightCoding>& heights,
-                                                                const CodingOptions& choice, int jobs);
+[[nodiscard]] Result<std::unique_ptr<RowReader>> open_raster_rows(const std::string& name,
+                                                                  const std::optional<HeightCoding>& heights,
+                                                                  const CodingOptions& choice, int jobs);
 
 /// Refuses a picture that is empty or over kMaxPictureSide_px.
 [[nodiscard]] Status check_picture_size(const std::string& name, std::int64_t width_px, std::int64_t height_px);

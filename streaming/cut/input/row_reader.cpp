@@ -7,8 +7,7 @@
 
 #include "codecs/image.h"
 #include "streaming/cut/input/row_formats.h"
-#include "streaming/other_formats.h"
-#include "streaming/tiff_open.h"
+#include "streaming/raster/picture_kind.h"
 
 namespace terrella {
 namespace {
@@ -108,7 +107,7 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   File file(std::fopen(name.c_str(), "rb"));
   if (!file && errno == ENOENT) return Error{fmt::format("{}: no such file", name)};
   if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};
-  std::array<char, kFormatHeadBytes> bytes{};
+  std::array<char, 64> bytes{};
   const std::string_view head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file.get()));
   if (head.empty()) return Error{fmt::format("{}: is empty; download or copy it again", name)};
   std::rewind(file.get());
@@ -123,10 +122,9 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   if (format != ImageFormat::unknown && heights) return refuse_heights(name);
   if (format == ImageFormat::jpeg) return open_jpeg_rows(std::move(file), name);
   if (format == ImageFormat::webp) return open_webp_rows(name);
-  if (begins_as_tiff(head)) return open_tiff_rows(name, heights, choice, jobs);
-  const std::string hint = convert_hint(path, head);
+  if (picture_kind(path) == PictureKind::raster) return open_raster_rows(name, heights, choice, jobs);
   return Error{
-      fmt::format("{}: {}", name, hint.empty() ? "is not a picture; it takes JPEG, PNG, WebP, TIFF or BigTIFF" : hint)};
+      fmt::format("{}: is no picture that is read: neither JPEG, PNG or WebP nor a raster of GDAL's formats", name)};
 }
 
 }  // namespace

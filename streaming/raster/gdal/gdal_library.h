@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <gdal_utils.h>
+#include <ogr_srs_api.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+
+namespace terrella {
+
+/// Functions of GDAL's C interface that Terrella calls. The library is loaded when the first raster is opened, because
+/// loading takes some 40 ms and programs without rasters need none of it.
+#define TERRELLA_GDAL_FUNCTIONS(X)                                                                                    \
+  X(CPLPopErrorHandler)                                                                                               \
+  X(CPLPushErrorHandlerEx)                                                                                            \
+  X(CPLGetErrorHandlerUserData)                                                                                       \
+  X(CPLSetThreadLocalConfigOption)                                                                                    \
+  X(VSIFree) X(CSLCount) X(GDALAllRegister) X(GDALClose) X(GDALDatasetRasterIOEx) X(GDALGetBandDataset) X(            \
+      GDALGetBlockSize) X(GDALGetColorEntryAsRGB) X(GDALGetColorEntryCount) X(GDALGetDescription) X(GDALGetDriver)    \
+      X(GDALGetDriverCount) X(GDALGetDatasetDriver) X(GDALGetGCPCount) X(GDALGetGCPSpatialRef) X(GDALGetGeoTransform) \
+          X(GDALGetMaskBand) X(GDALGetMaskFlags) X(GDALGetMetadata) X(GDALGetMetadataItem) X(GDALGetOverview)         \
+              X(GDALGetOverviewCount) X(GDALGetRasterBand) X(GDALGetRasterBandXSize) X(GDALGetRasterBandYSize)        \
+                  X(GDALGetRasterColorInterpretation) X(GDALGetRasterColorTable) X(GDALGetRasterCount)                \
+                      X(GDALGetRasterDataType) X(GDALGetRasterNoDataValue) X(GDALGetRasterNoDataValueAsInt64)         \
+                          X(GDALGetRasterNoDataValueAsUInt64) X(GDALGetRasterOffset) X(GDALGetRasterScale)            \
+                              X(GDALGetRasterStatistics) X(GDALGetRasterUnitType) X(GDALGetRasterXSize)               \
+                                  X(GDALGetRasterYSize) X(GDALGetSpatialRef) X(GDALIdentifyDriverEx) X(GDALOpenEx)    \
+                                      X(GDALRasterIOEx) X(GDALReadBlock) X(GDALSetCacheMax64) X(GDALWarp)             \
+                                          X(GDALWarpAppOptionsFree) X(GDALWarpAppOptionsNew) X(OSRExportToWktEx)      \
+                                              X(OSRGetName) X(OSRIsLocal) X(VSIAllocFilesystemPluginCallbacksStruct)  \
+                                                  X(VSIFreeFilesystemPluginCallbacksStruct) X(VSIInstallPluginHandler)
+
+/// The loaded library: api.GDALOpenEx(…) calls GDAL's function of that name.
+struct GdalApi {
+#define TERRELLA_GDAL_MEMBER(name) decltype(&::name) name = nullptr;
+  TERRELLA_GDAL_FUNCTIONS(TERRELLA_GDAL_MEMBER)
+#undef TERRELLA_GDAL_MEMBER
+  /// Names of the drivers that may open a file: readers of rasters, none that asks a network or a database.
+  std::vector<const char*> drivers;  ///< ends with nullptr
+};
+
+/// Loads GDAL once. The error names the package that contains the library. thread: any
+[[nodiscard]] Result<const GdalApi*> load_gdal();
+/// GDAL after load_gdal() has succeeded. thread: any
+[[nodiscard]] const GdalApi& gdal();
+
+/// Collects what GDAL reports on this thread while it lives, instead of printing it. thread: that of the constructor
+class GdalMessages {
+ public:
+  GdalMessages();
+  ~GdalMessages();
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  /// The first error, on one line; empty if there was none.
+  [[nodiscard]] const std::string& error() const { return error_; }
+  /// Warnings, on one line each, without repetitions.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  static void CPL_STDCALL take(CPLErr kind, CPLErrorNum number, const char* text);
+  std::string error_;
+  std::vector<std::string> warnings_;
+};
+
+/// Settings of GDAL that hold on this thread while the object lives.
+class GdalSettings {
+ public:
+  using Settings = std::vector<std::pair<const char*, const char*>>;
+  explicit GdalSettings(Settings settings);
+  ~GdalSettings();
+  GdalSettings(const GdalSettings&) = delete;
+  GdalSettings& operator=(const GdalSettings&) = delete;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace terrella

@@ -1,0 +1,125 @@
+#include "streaming/raster/gdal/raster_dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "streaming/other_formats.h"
+#include "streaming/raster/gdal/dataset_place.h"
+
+namespace terrella {
+namespace {
+
+/// Names of the rasters in a file that holds several; the first one is that of GDAL.
+std::vector<std::string> sub_datasets(GDALDatasetH dataset) {
+  std::vector<std::string> names;
+  char** const items = gdal().GDALGetMetadata(dataset, "SUBDATASETS");
+  for (int i = 0; i < gdal().CSLCount(items); ++i) {
+    const std::string_view item = items[i];
+    const std::size_t value = item.find("_NAME=");
+    if (value != std::string_view::npos) names.emplace_back(item.substr(value + 6));
+  }
+  return names;
+}
+
+Result<GDALDatasetH> open_by_name(const std::string& name, bool alone, const std::string& option) {
+  const GdalSettings settings(
+      GdalSettings::Settings{{"GDAL_DISABLE_READDIR_ON_OPEN", "TRUE"}, {"GTIFF_IMPLICIT_JPEG_OVR", "NO"}});
+  const GdalMessages messages;
+  const char* const no_siblings[] = {nullptr};
+  const char* const options[] = {option.empty() ? nullptr : option.c_str(), nullptr};
+  GDALDatasetH dataset = gdal().GDALOpenEx(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                           gdal().drivers.data(), options, alone ? no_siblings : nullptr);
+  if (dataset != nullptr) return dataset;
+  const bool is_unknown = messages.error().empty() || messages.error().find("not recognized as") != std::string::npos;
+  return Error{is_unknown ? "it is no raster that GDAL reads" : without_name(messages.error(), name)};
+}
+
+/// Resamples a raster that states control points or a camera model onto a grid, as it is read.
+GDALDatasetH resampled(GDALDatasetH dataset, bool by_camera) {
+  const bool palette = gdal().GDALGetRasterColorTable(gdal().GDALGetRasterBand(dataset, 1)) != nullptr;
+  std::vector<const char*> words{"-of", "VRT", "-et", "0.01", "-r", palette ? "near" : "bilinear", "-dstalpha"};
+  if (by_camera) words.insert(words.end(), {"-rpc", "-t_srs", "EPSG:4326"});
+  words.push_back(nullptr);
+  GDALWarpAppOptions* options = gdal().GDALWarpAppOptionsNew(const_cast<char**>(words.data()), nullptr);
+  GDALDatasetH warped = gdal().GDALWarp("", nullptr, 1, &dataset, options, nullptr);
+  gdal().GDALWarpAppOptionsFree(options);
+  return warped;
+}
+
+}  // namespace
+
+std::string without_name(std::string message, const std::string& name) {
+  for (const std::string& part : {name + ": ", name + ":", name}) {
+    for (std::size_t at = message.find(part); at != std::string::npos; at = message.find(part))
+      message.erase(at, part.size());
+  }
+  return message;
+}
+
+Status failure(const GdalMessages& messages) {
+  return Error{messages.error().empty() ? "GDAL gives no reason" : messages.error()};
+}
+
+void CloseDataset::operator()(OpenDataset* dataset) const {
+  const GdalMessages messages;
+  if (dataset->warped != nullptr) gdal().GDALClose(dataset->warped);
+  if (dataset->stored != nullptr) gdal().GDALClose(dataset->stored);
+  delete dataset;
+}
+
+Result<DatasetHandle> open_dataset(const DatasetSource& source) {
+  const auto stored = open_by_name(source.name, source.alone, source.option);
+  if (!stored) return stored.error();
+  DatasetHandle handle(new OpenDataset{.stored = *stored});
+  if (!source.by_points) return handle;
+  const GdalMessages messages;
+  const bool by_camera = points_of(*stored) == PointPlace::camera;
+  handle->warped = resampled(*stored, by_camera);
+  if (handle->warped != nullptr) return handle;
+  return Error{fmt::format("it is placed by {} that cannot be used: {}",
+                           by_camera ? "a camera model (RPC)" : "ground control points", messages.error())};
+}
+
+Result<DatasetHandle> open_first_dataset(DatasetSource& source, const std::string& shown_name,
+                                         std::vector<std::string>& remarks) {
+  auto handle = open_dataset(source);
+  if (!handle || gdal().GDALGetRasterCount((*handle)->stored) > 0) return handle;
+  const std::vector<std::string> parts = sub_datasets((*handle)->stored);
+  if (parts.empty()) return Error{"it holds no raster"};
+  source.name = parts.front();
+  if (parts.size() > 1) {
+    std::string others;
+    for (std::size_t i = 1; i < std::min<std::size_t>(parts.size(), 8); ++i) others += " " + shell_word(parts[i]);
+    remarks.push_back(fmt::format("{}: it holds {} rasters, of which the first is used; name another one instead:{}",
+                                  shown_name, parts.size(), others));
+  }
+  return open_dataset(source);
+}
+
+std::optional<Georeference> place_of(DatasetSource& source, DatasetHandle& handle, const TiffTags& tags) {
+  const GdalMessages messages;
+  Georeference said;
+  if (points_of(handle->stored) != PointPlace::none) {
+    source.by_points = true;
+    auto by_points = open_dataset(source);
+    source.by_points = static_cast<bool>(by_points);
+    if (by_points) handle = *std::move(by_points);
+    if (!by_points) said.fault = by_points.error().message;
+  }
+  if (auto stated = read_place(handle->stored, handle->warped)) {
+    stated->fault = said.fault;
+    said = *std::move(stated);
+  }
+  if (said.fault.empty()) said.fault = messages.error();
+  if (said.fault.empty() && !messages.warnings().empty()) said.fault = messages.warnings().front();
+  if (said.fault.empty() && tags.has_place && !said.transform) said.fault = "they give no scale, or no point";
+  if (said.fault.empty() && tags.has_system && said.crs.empty()) said.fault = "they name no coordinate system";
+  if (said.fault.empty() && !said.transform && said.crs.empty()) return {};
+  if (said.source.empty()) said.source = "GeoTIFF tags";
+  if (!said.fault.empty()) said.fault = fmt::format("its {} cannot be read: {}", said.source, said.fault);
+  return said;
+}
+
+}  // namespace terrella
