@@ -47,7 +47,7 @@ struct Strip {
     view = {2 * static_cast<int>(0.5 * kAlong * size), 2 * static_cast<int>(kMargin_px + bend_px + 2.0)};
     const double lower_rad = (0.5 * view.height_px - kMargin_px) / px_per_rad;
     camera.eye = {.lat = Angle::degrees(-85.5 + 9.0 * k),
-                  .lon = Angle::degrees(47.0 * k - 180.0 * ((47 * k) / 180)),
+                  .lon = Angle::degrees(static_cast<double>((47 * k) % 180)),
                   .height_m = height_m};
     camera.heading = Angle::degrees(61.0 * k);
     camera.pitch = Angle::radians(half_rad - lower_rad - 0.5 * std::numbers::pi);

@@ -19,8 +19,9 @@ std::vector<float> wave_texels(const TileId& id) {
   std::vector<float> texels;
   texels.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   for (int k = 0; k < side * side; ++k) {
-    const double around = (b.west_deg + (k % side + 0.5) * step) * M_PI / 180.0;
-    const double north = (b.north_deg - (k / side + 0.5) * step) * M_PI / 180.0;
+    const int column = k % side, row = k / side;
+    const double around = (b.west_deg + (column + 0.5) * step) * M_PI / 180.0;
+    const double north = (b.north_deg - (row + 0.5) * step) * M_PI / 180.0;
     const double wave = 60.0 * std::sin(37.0 * north) * std::cos(23.0 * around) +
                         60.0 * std::cos(5.0 * north) * std::sin(71.0 * around);
     texels.push_back(static_cast<float>(std::round(127.5 + wave)));

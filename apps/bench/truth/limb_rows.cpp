@@ -44,8 +44,9 @@ Levels reduced(const std::vector<std::uint8_t>& rgba, int width, int height, int
     for (int x = 0; x < small.width; ++x) {
       double sum[3] = {};
       for (int k = 0; k < times * times; ++k) {
-        const auto row = static_cast<std::size_t>(times * y + k / times);
-        const std::size_t px = row * static_cast<std::size_t>(width) + std::size_t(times * x + k % times);
+        const int row = times * y + k / times, column = times * x + k % times;
+        const std::size_t px =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
         for (std::size_t c = 0; c < 3; ++c) sum[c] += rgba[4 * px + c];
       }
       for (const double s : sum) small.values.push_back(s / (times * times));

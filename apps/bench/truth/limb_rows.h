@@ -11,7 +11,8 @@ struct Levels {
   int width = 0, height = 0;
   std::vector<double> values;  ///< three a pixel, rows from the top
   [[nodiscard]] double at(int x, int y, int c) const {
-    return values[static_cast<std::size_t>(3 * (y * width + x) + c)];
+    const int index = 3 * (y * width + x) + c;
+    return values[static_cast<std::size_t>(index)];
   }
 };
 

@@ -52,7 +52,7 @@ class Part {
   virtual bool close() { return false; }
 
  protected:
-  void say(std::string text) const { context_.messages.say(std::move(text)); }
+  void say(const std::string& text) const { context_.messages.say(text); }
 
   const ViewerContext context_;
 };

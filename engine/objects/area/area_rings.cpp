@@ -68,7 +68,7 @@ void add_clipped(MapRings& parts, const MapRing& ring, double MapPoint::*axis, d
 /// Gives equal rings the same first point and the same direction.
 void normalize(MapRing& ring) {
   shorten(ring);
-  std::ranges::rotate(ring, std::ranges::min_element(ring, is_before));
+  std::rotate(ring.begin(), std::ranges::min_element(ring, is_before), ring.end());
   if (ring.size() > 2 && is_before(ring.back(), ring[1])) std::reverse(ring.begin() + 1, ring.end());
 }
 

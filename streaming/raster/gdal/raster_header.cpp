@@ -122,9 +122,9 @@ RasterShape shape_of(GDALRasterBandH band, std::size_t bands, SampleType type, b
   gdal().GDALGetBlockSize(band, &wide, &high);
   shape.rows_per_strip = std::clamp<std::int64_t>(high, 1, shape.height_px);
   const auto bytes = static_cast<std::int64_t>(bands * sample_bytes(type)) * wide * high;
-  const bool is_whole = wide >= shape.width_px && high >= shape.height_px && high > 1 && bytes <= kMostWholeBytes &&
-                        (!in_strips || wide > shape.width_px || high > shape.height_px);
-  shape.tiled = wide < shape.width_px || is_whole;
+  const bool reaches_beyond = wide > shape.width_px || high > shape.height_px;
+  const bool is_whole = wide == shape.width_px && high == shape.height_px && high > 1 && bytes <= kMostWholeBytes;
+  shape.tiled = wide < shape.width_px || reaches_beyond || (is_whole && !in_strips);
   if (shape.tiled) {
     shape.block_width_px = wide;
     shape.block_height_px = high;
