@@ -167,7 +167,7 @@ TEST(ObjectShapes, EqualRingsCancelEachOther) {
   EXPECT_EQ(none.fault, FillFault::none);
   // Also if a ring begins elsewhere or goes the other way round.
   PolygonObject turned = equal_rings(2);
-  std::ranges::rotate(turned.rings[1], turned.rings[1].begin() + 2);
+  std::rotate(turned.rings[1].begin(), turned.rings[1].begin() + 2, turned.rings[1].end());
   std::ranges::reverse(turned.rings[0]);
   EXPECT_TRUE(fill_area(turned, earth().ellipsoid, kMostFillTriangles).indices.empty());
 }
