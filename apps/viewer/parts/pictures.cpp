@@ -81,9 +81,9 @@ void Pictures::start() {
   job_ = *std::move(job);
 }
 
-void Pictures::end(std::string message) {
+void Pictures::end(const std::string& message) {
   job_.reset();
-  say(std::move(message));
+  say(message);
 }
 
 bool Pictures::cancel() {

@@ -34,7 +34,7 @@ class Pictures : public Panel {
   void draw_open(float foot) override;
   void draw_fields(int most_px);
   void start();
-  void end(std::string message);
+  void end(const std::string& message);
 
   [[nodiscard]] PictureOverlay wanted_overlay() const;
 
