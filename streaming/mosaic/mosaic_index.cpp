@@ -15,8 +15,6 @@
 namespace terrella {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Lends placers to threads. Each keeps the coordinate systems that it has opened.
 class Placers {
  public:
