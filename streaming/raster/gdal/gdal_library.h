@@ -19,28 +19,23 @@ namespace terrella {
 
 /// Functions of GDAL's C interface that Terrella calls. The library is loaded when the first raster is opened, because
 /// loading takes some 40 ms and programs without rasters need none of it.
-#define TERRELLA_GDAL_FUNCTIONS(X)                                                                                     \
-  X(CPLPopErrorHandler)                                                                                                \
-  X(CPLPushErrorHandlerEx)                                                                                             \
-  X(CPLGetErrorHandlerUserData)                                                                                        \
-  X(CPLSetThreadLocalConfigOption)                                                                                     \
-  X(VSIFree)                                                                                                           \
-  X(CSLCount) X(GDALAllRegister) X(GDALClose) X(GDALDatasetRasterIOEx) X(GDALGetBandDataset) X(GDALGetBlockSize)       \
-      X(GDALGetColorEntryAsRGB) X(GDALGetColorEntryCount) X(GDALGetDescription) X(GDALGetDriver) X(GDALGetDriverCount) \
-          X(GDALGetDatasetDriver) X(GDALGetGCPCount) X(GDALGetGCPSpatialRef) X(GDALGetGeoTransform) X(GDALGetMaskBand) \
-              X(GDALGetMaskFlags) X(GDALGetMetadata) X(GDALGetMetadataItem) X(GDALGetOverview) X(GDALGetOverviewCount) \
-                  X(GDALGetRasterBand) X(GDALGetRasterBandXSize) X(GDALGetRasterBandYSize)                             \
-                      X(GDALGetRasterColorInterpretation) X(GDALGetRasterColorTable) X(GDALGetRasterCount)             \
-                          X(GDALGetRasterDataType) X(GDALGetRasterNoDataValue) X(GDALGetRasterNoDataValueAsInt64)      \
-                              X(GDALGetRasterNoDataValueAsUInt64) X(GDALGetRasterOffset) X(GDALGetRasterScale)         \
-                                  X(GDALGetRasterStatistics) X(GDALGetRasterUnitType) X(GDALGetRasterXSize)            \
-                                      X(GDALGetRasterYSize) X(GDALGetSpatialRef) X(GDALIdentifyDriverEx) X(GDALOpenEx) \
-                                          X(GDALRasterIOEx) X(GDALReadBlock) X(GDALSetCacheMax64) X(GDALWarp)          \
-                                              X(GDALWarpAppOptionsFree) X(GDALWarpAppOptionsNew) X(OSRExportToWktEx)   \
-                                                  X(OSRGetName) X(OSRIsLocal)                                          \
-                                                      X(VSIAllocFilesystemPluginCallbacksStruct)                       \
-                                                          X(VSIFreeFilesystemPluginCallbacksStruct)                    \
-                                                              X(VSIInstallPluginHandler)
+// clang-format off
+#define TERRELLA_GDAL_FUNCTIONS(X) \
+  X(CPLGetErrorHandlerUserData) X(CPLPopErrorHandler) X(CPLPushErrorHandlerEx) X(CPLSetThreadLocalConfigOption) \
+  X(CSLCount) X(GDALAllRegister) X(GDALClose) X(GDALDatasetRasterIOEx) X(GDALGetBandDataset) X(GDALGetBlockSize) \
+  X(GDALGetColorEntryAsRGB) X(GDALGetColorEntryCount) X(GDALGetDatasetDriver) X(GDALGetDescription) \
+  X(GDALGetDriver) X(GDALGetDriverCount) X(GDALGetGCPCount) X(GDALGetGCPSpatialRef) X(GDALGetGeoTransform) \
+  X(GDALGetMaskBand) X(GDALGetMaskFlags) X(GDALGetMetadata) X(GDALGetMetadataItem) X(GDALGetOverview) \
+  X(GDALGetOverviewCount) X(GDALGetRasterBand) X(GDALGetRasterBandXSize) X(GDALGetRasterBandYSize) \
+  X(GDALGetRasterColorInterpretation) X(GDALGetRasterColorTable) X(GDALGetRasterCount) X(GDALGetRasterDataType) \
+  X(GDALGetRasterNoDataValue) X(GDALGetRasterNoDataValueAsInt64) X(GDALGetRasterNoDataValueAsUInt64) \
+  X(GDALGetRasterOffset) X(GDALGetRasterScale) X(GDALGetRasterStatistics) X(GDALGetRasterUnitType) \
+  X(GDALGetRasterXSize) X(GDALGetRasterYSize) X(GDALGetSpatialRef) X(GDALIdentifyDriverEx) X(GDALOpenEx) \
+  X(GDALRasterIOEx) X(GDALReadBlock) X(GDALSetCacheMax64) X(GDALWarp) X(GDALWarpAppOptionsFree) \
+  X(GDALWarpAppOptionsNew) X(OSRExportToWktEx) X(OSRGetName) X(OSRIsLocal) \
+  X(VSIAllocFilesystemPluginCallbacksStruct) X(VSIFree) X(VSIFreeFilesystemPluginCallbacksStruct) \
+  X(VSIInstallPluginHandler)
+// clang-format on
 
 /// The loaded library: api.GDALOpenEx(…) calls GDAL's function of that name.
 struct GdalApi {
