@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -22,6 +24,11 @@ struct FileError {
 /// Reads at most the first `max_bytes` of a regular file. thread: any
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
+
+/// Bytes as text. thread: any
+[[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 /// Explains why a write failed with this errno, and gives a cure: "No space left on device; make room, …". thread: any
 [[nodiscard]] std::string why_not_written(int error_number);

@@ -64,7 +64,7 @@ std::string draw_svg(const Report& report, const fs::path& folder) {
   constexpr std::size_t kMostBytes = 64UL << 20;
   if (!drawn) return {};
   const auto bytes = read_file(picture, kMostBytes);
-  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
+  return bytes ? std::string(terrella::as_text(*bytes)) : std::string();
 }
 
 }  // namespace terrella::bench

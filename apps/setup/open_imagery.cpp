@@ -112,8 +112,7 @@ Error no_meaning(const Url& address, const char* field) {
 
 bool begins_as_picture(const fs::path& path) {
   const auto head = read_head(path, 12);
-  return head && (sniff_format(*head) != ImageFormat::unknown ||
-                  begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()}));
+  return head && (sniff_format(*head) != ImageFormat::unknown || begins_as_tiff(as_text(*head)));
 }
 
 bool is_picture(const fs::path& path) {

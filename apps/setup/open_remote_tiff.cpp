@@ -10,6 +10,7 @@
 #include "apps/setup/open_cache.h"
 #include "apps/setup/stop_signals.h"
 #include "streaming/cache/cache_report.h"
+#include "streaming/file_bytes.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/raster/tiff_tags.h"
 #include "streaming/remote/describe_remote.h"
@@ -84,7 +85,7 @@ bool leads_to_tiff(const Url& url, const std::vector<std::string>& headers, cons
   if (!address || (address->scheme != "http" && address->scheme != "https") || names_its_kind(url)) return false;
   RangeReader reader(url, headers, http, may_wait);
   const auto head = reader.read({.offset = 0, .length = 8});
-  return head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()});
+  return head && begins_as_tiff(as_text(*head));
 }
 
 Result<RemotePicture> open_remote_picture(const RemoteTiffWish& wish) {
@@ -92,9 +93,7 @@ Result<RemotePicture> open_remote_picture(const RemoteTiffWish& wish) {
   if (!file) return file.error();
   const auto raster = open_remote_raster(**file);
   if (!raster) return raster.error();
-  const RasterShape& whole = (*raster)->header().whole();
-  PictureFile picture{(*file)->name(), whole.width_px, whole.height_px, *raster};
-  return RemotePicture{*std::move(file), std::move(picture)};
+  return RemotePicture{*std::move(file), as_picture(*raster)};
 }
 
 Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {

@@ -20,7 +20,7 @@ bool is_list(const fs::path& path) {
   constexpr std::size_t kLongestId = 64;
   const auto head = read_head(path, kLongestId);
   if (!head) return false;
-  std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
+  std::string_view text = as_text(*head);
   if (text.empty()) return true;
   for (const std::string_view end : {"/", "/", "\t\n"}) {
     const std::size_t digits = text.find_first_not_of("0123456789");

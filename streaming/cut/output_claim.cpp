@@ -137,9 +137,7 @@ Status check_folder(const OutputClaim& claim, const fs::path& there) {
   }
   if (fs::is_empty(there, failed)) return Done{};
   const auto description = read_file(there / kTileSetFile, kMaxTileSetJsonBytes);
-  const std::optional<std::string> mark =
-      description ? read_cut_key({reinterpret_cast<const char*>(description->data()), description->size()})
-                  : std::nullopt;
+  const std::optional<std::string> mark = description ? read_cut_key(as_text(*description)) : std::nullopt;
   if (!mark) return stays(claim, fmt::format("is a folder with other things in it (no {} by `cut`)", kTileSetFile));
   for (fs::directory_iterator entry(there, failed), end; !failed && entry != end; entry.increment(failed)) {
     if (is_own_entry(*entry)) continue;

@@ -45,10 +45,7 @@ Status add_claim(Georeference& said, const SideClaim& claim, const PictureFile& 
   }
   if (!said.transform) said.transform = claim.transform;
   said.has_control_points = said.has_control_points || (claim.has_control_points && !said.transform);
-  if (said.crs.empty() && !claim.crs.empty()) {
-    said.crs = claim.crs;
-    said.gdal_reads_crs = claim.file.extension() == ".xml";
-  }
+  if (said.crs.empty()) said.crs = claim.crs;
   said.source += (said.source.empty() ? "" : ", ") + name;
   return Done{};
 }

@@ -29,7 +29,6 @@ struct Georeference {
   std::optional<Affine> transform;  ///< from pixels to the coordinate system; half-pixel offsets are already applied
   std::string crs;                  ///< text for Crs::open(); empty if not stated
   std::string crs_title;            ///< name used in the file; may be empty
-  bool gdal_reads_crs = true;       ///< false: the system comes from a .prj, which only Terrella reads
   bool pixel_is_point = false;      ///< the file gives coordinates of pixel centres
   std::string points;               ///< points by which GDAL resamples it onto the transform; empty: it is a grid
   bool has_control_points = false;  ///< a file beside the picture states them instead of a transform

@@ -243,7 +243,6 @@ Status read_said(Case& of) {
   // PROJ strings need "+type=crs". Texts that name files of shifts are the user's own affair.
   const auto text = stated_crs(of.words.crs);
   of.said.crs = text ? *text : of.words.crs;
-  of.said.gdal_reads_crs = true;
   return Done{};
 }
 

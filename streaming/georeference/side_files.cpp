@@ -34,7 +34,7 @@ Result<std::optional<std::string>> side_text(const fs::path& file, std::size_t m
   if (!fs::is_regular_file(file, failed)) return std::optional<std::string>{};
   const auto bytes = read_file(file, max_bytes);
   if (!bytes) return damaged(file, fmt::format("cannot be read ({})", bytes.error().message));
-  return std::optional(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+  return std::optional(std::string(as_text(*bytes)));
 }
 
 /// First six words as numbers; none if one of them is no number.
@@ -100,11 +100,9 @@ Result<std::optional<SideClaim>> read_world_file(const fs::path& file) {
       SideClaim{.file = file, .transform = centre.from_centre(), .crs = {}, .has_control_points = false});
 }
 
-fs::path aux_xml_of(const fs::path& picture) { return picture.string() + ".aux.xml"; }
-
 Result<std::optional<SideClaim>> read_aux_xml(const fs::path& picture) {
-  const fs::path file = aux_xml_of(picture);
-  const auto text = aux_xml_text(picture);
+  const fs::path file = picture.string() + ".aux.xml";
+  const auto text = side_text(file, kMostAuxBytes);
   if (!text) return text.error();
   if (!*text) return std::optional<SideClaim>{};
   pugi::xml_document document;
@@ -138,10 +136,6 @@ Result<std::optional<SideClaim>> read_prj(const fs::path& picture) {
 
 }  // namespace
 
-Result<std::optional<std::string>> aux_xml_text(const fs::path& picture) {
-  return side_text(aux_xml_of(picture), kMostAuxBytes);
-}
-
 Result<std::vector<SideClaim>> read_side_files(const fs::path& picture) {
   std::vector<SideClaim> claims;
   for (const std::string& ending : world_file_endings(picture)) {
@@ -160,6 +154,12 @@ Result<std::vector<SideClaim>> read_side_files(const fs::path& picture) {
   if (!aux) return aux.error();
   if (*aux) claims.push_back(**std::move(aux));
   return claims;
+}
+
+bool is_placed_as_stored(const fs::path& picture) {
+  const auto claims = read_side_files(picture);
+  const auto places = [](const SideClaim& claim) { return claim.transform || claim.has_control_points; };
+  return claims && std::ranges::any_of(*claims, places);
 }
 
 }  // namespace terrella

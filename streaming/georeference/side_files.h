@@ -26,7 +26,8 @@ struct SideClaim {
 /// - A .prj, which counts only beside a world file.
 [[nodiscard]] Result<std::vector<SideClaim>> read_side_files(const std::filesystem::path& picture);
 
-/// The text of PICTURE.aux.xml; none if there is no such file. The error names it. thread: any
-[[nodiscard]] Result<std::optional<std::string>> aux_xml_text(const std::filesystem::path& picture);
+/// True if a file beside the picture places its stored rows, as a world file does. GDAL and other writers of such files
+/// ignore orientations. False if such a file is damaged. thread: any
+[[nodiscard]] bool is_placed_as_stored(const std::filesystem::path& picture);
 
 }  // namespace terrella

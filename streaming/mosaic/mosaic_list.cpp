@@ -72,7 +72,7 @@ bool is_list_name(const fs::path& path) {
 Result<nlohmann::json> read_list_json(const fs::path& path) {
   const auto text = read_head(path, kMaxListBytes);
   if (!text) return Error{text.error().message};
-  return parse_json_object({reinterpret_cast<const char*>(text->data()), text->size()}, kMaxListBytes, path.string());
+  return parse_json_object(as_text(*text), kMaxListBytes, path.string());
 }
 
 /// Adds a file, or the rasters of a folder in the order of their names.

@@ -136,7 +136,7 @@ Result<ColourTable> parse_colour_table(std::string_view text, const std::string&
 Result<ColourTable> read_colour_table(const std::filesystem::path& path) {
   const auto bytes = read_file(path, kMaxTableBytes);
   if (!bytes) return Error{bytes.error().message};
-  return parse_colour_table({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+  return parse_colour_table(as_text(*bytes), path.string());
 }
 
 }  // namespace terrella

@@ -25,7 +25,7 @@ Result<json> parse_geojson(std::string_view text, const std::string& where) {
 Result<std::string> read_geojson_text(const std::filesystem::path& path) {
   const auto bytes = read_file(path, kMaxGeojsonBytes);
   if (!bytes) return Error{bytes.error().message};
-  return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return std::string(as_text(*bytes));
 }
 
 std::string geojson_type(const json& object) {

@@ -208,11 +208,15 @@ Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const Cr
   return std::unique_ptr<RasterSource>(*std::move(source));
 }
 
+PictureFile as_picture(const std::shared_ptr<const RasterFile>& file) {
+  const RasterShape& whole = file->header().whole();
+  return {file->name(), whole.width_px, whole.height_px, file};
+}
+
 Result<PictureFile> measure_raster(const fs::path& path) {
   const auto file = RasterFile::open(path.string());
   if (!file) return file.error();
-  const RasterShape& whole = (*file)->header().whole();
-  return PictureFile{path, whole.width_px, whole.height_px, *file};
+  return as_picture(*file);
 }
 
 Result<std::unique_ptr<FileSource>> make_file_source(std::shared_ptr<const RasterFile> file, const CrsPlace& place,

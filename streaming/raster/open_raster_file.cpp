@@ -49,17 +49,13 @@ Result<std::shared_ptr<const RasterFile>> open_source(DatasetSource source, std:
 /// True for a TIFF whose rows a tag turns. A stated place is that of the stored rows, as in GDAL, which ignores the
 /// tag.
 bool is_turned(const RasterFile& file, int orientation) {
-  if (orientation <= 1 || orientation > 8 || file.header().said) return false;
-  const auto sides = read_side_files(file.name());
-  const auto places = [](const SideClaim& claim) { return claim.transform || claim.has_control_points; };
-  return !sides || std::ranges::none_of(*sides, places);
+  return orientation > 1 && orientation <= 8 && !file.header().said && !is_placed_as_stored(file.name());
 }
 
 /// Advice for a file that GDAL does not read, if its first bytes tell what it is.
 Error with_hint(const std::string& name, const Error& error) {
   const auto head = read_head(name, kFormatHeadBytes);
-  const std::string hint =
-      head ? convert_hint(name, {reinterpret_cast<const char*>(head->data()), head->size()}) : std::string();
+  const std::string hint = head ? convert_hint(name, as_text(*head)) : std::string();
   return hint.empty() ? error : Error{fmt::format("{}: {}", name, hint)};
 }
 
@@ -69,7 +65,7 @@ Result<std::shared_ptr<const RasterFile>> RasterFile::open(const std::string& na
   if (const auto loaded = load_gdal(); !loaded) return Error{fmt::format("{}: {}", name, loaded.error().message)};
   const auto head = read_head(name, 8);
   if (!head && picture_kind(name) == PictureKind::none) return Error{head.error().message};
-  if (head && begins_as_tiff({reinterpret_cast<const char*>(head->data()), head->size()})) {
+  if (head && begins_as_tiff(as_text(*head))) {
     const auto bytes = open_byte_file(name);
     if (!bytes) return bytes.error();
     const TiffTags tags = read_tiff_tags(**bytes);

@@ -55,7 +55,7 @@ PictureKind picture_kind(const fs::path& path) {
   }
   const auto bytes = read_head(path, 64);
   if (!bytes) return PictureKind::none;
-  const std::string_view head(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string_view head = as_text(*bytes);
   if (sniff_format(*bytes) != ImageFormat::unknown) return PictureKind::plain;
   if (begins_as_tiff(head)) return PictureKind::raster;
   if (begins_as_tile_set(head)) return PictureKind::none;

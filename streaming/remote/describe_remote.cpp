@@ -125,7 +125,7 @@ class Describing {
     if (!has_scheme(address.with_secrets())) {
       Result<std::vector<std::byte>, FileError> bytes = read_file(address.with_secrets(), kMaxCapabilitiesBytes);
       if (!bytes) return Error{bytes.error().message};
-      return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+      return std::string(as_text(*bytes));
     }
     const auto parsed = parse_address(address);
     if (!parsed || (parsed->scheme != "http" && parsed->scheme != "https" && parsed->scheme != "file")) {
@@ -133,7 +133,7 @@ class Describing {
     }
     Result<std::vector<std::byte>> bytes = fetch_(address, options.headers);
     if (!bytes) return bytes.error();
-    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    return std::string(as_text(*bytes));
   }
 
   Result<RemoteTileSet> interpret(Kind kind, const std::string& text, const Url& address,
@@ -203,7 +203,7 @@ class Describing {
 /// True for the label of a raster in a planetary archive (PDS4) on disk, which is XML too.
 bool is_raster_label(const std::filesystem::path& path) {
   const auto head = read_head(path, 4096);
-  const auto text = head ? std::string_view(reinterpret_cast<const char*>(head->data()), head->size()) : "";
+  const auto text = head ? as_text(*head) : "";
   return text.find("<Product_Observational") != std::string_view::npos;
 }
 

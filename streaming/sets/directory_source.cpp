@@ -133,10 +133,6 @@ class DirectorySource : public TileSource, public TileLister {
   const DirectoryLayout layout_;
 };
 
-std::string_view as_text(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 bool has_any_level(const DirectoryLayout& layout) {
   for (const auto& [level, folder] : layout.folder) {
     std::error_code ignored;

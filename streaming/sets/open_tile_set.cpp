@@ -32,7 +32,7 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   if (!head) return Error{head.error().message};
   if (head->empty()) return Error{fmt::format("{}: the file is empty, so it is not a tile set", path.string())};
   if (begins_as_pmtiles(*head)) return open_pmtiles(path);
-  const std::string hint = convert_hint(path, {reinterpret_cast<const char*>(head->data()), head->size()});
+  const std::string hint = convert_hint(path, as_text(*head));
   if (!hint.empty()) return Error{fmt::format("{}: {}", path.string(), hint)};
   return Error{
       fmt::format("{}: neither a picture nor a tile set. Accepted are pictures (JPEG, PNG, WebP, TIFF), a GeoPackage, "

@@ -31,7 +31,7 @@ bool is_geojson(const std::filesystem::path& path) {
   if (extension != ".json") return false;
   const auto bytes = read_head(path, kGeoJsonHead);
   if (!bytes) return false;
-  const std::string_view head(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string_view head = as_text(*bytes);
   constexpr std::string_view kTypes[] = {"\"Feature",        "\"Point\"",           "\"LineString\"",
                                          "\"Polygon\"",      "\"MultiPoint",        "\"MultiLineString",
                                          "\"MultiPolygon\"", "\"GeometryCollection"};

@@ -98,7 +98,7 @@ std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
 Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
   const auto bytes = read_file(file, kMostGazetteerBytes);
   if (!bytes) return Error{bytes.error().message};
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string_view text = as_text(*bytes);
   const Result<nlohmann::json> json = parse_json_object(text, kMostGazetteerBytes, file.string());
   if (!json) return json.error();
   Gazetteer gazetteer;

@@ -17,7 +17,7 @@ Result<nlohmann::json> read_kept_json(const std::filesystem::path& file) {
   const auto bytes = read_file(file, kMostBytes);
   if (!bytes && bytes.error().problem == FileProblem::missing) return nlohmann::json();
   if (!bytes) return Error{bytes.error().message};
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string_view text = as_text(*bytes);
   return parse_json_object(text, kMostBytes, file.string());
 }
 

@@ -83,7 +83,7 @@ void add_countries(const Json& countries, std::vector<MapName>& names) {
 Status add_map(const std::filesystem::path& file, MapData& data) {
   const auto bytes = read_file(file, kMostMapBytes);
   if (!bytes) return Error{bytes.error().message};
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string_view text = as_text(*bytes);
   const Result<Json> map = parse_json_object(text, kMostMapBytes, file.string());
   if (!map) return map.error();
   try {

@@ -116,14 +116,6 @@ class TurnedRows : public RowReader {
   std::int64_t row_ = 0;
 };
 
-/// True if a file beside the picture places its stored rows, as a world file does. GDAL and other writers of such files
-/// ignore EXIF.
-bool is_placed_as_stored(const std::string& name) {
-  const auto claims = read_side_files(name);
-  return claims && std::ranges::any_of(
-                       *claims, [](const SideClaim& claim) { return claim.transform || claim.has_control_points; });
-}
-
 }  // namespace
 
 Result<std::unique_ptr<RowReader>> upright_rows(std::unique_ptr<RowReader> stored, int orientation,

@@ -49,7 +49,8 @@ std::optional<Georeference> read_place(GDALDatasetH dataset, GDALDatasetH resamp
   const std::string_view driver = gdal().GDALGetDescription(gdal().GDALGetDatasetDriver(dataset));
   said.source = driver == "GTiff" ? "GeoTIFF tags" : std::string(driver) + " header";
   said.transform = transform_of(placed);
-  if (resampled != nullptr) said.points = has_camera(dataset) ? "camera model (RPC)" : "ground control points";
+  if (resampled != nullptr)
+    said.points = points_of(dataset) == PointPlace::camera ? "camera model (RPC)" : "ground control points";
   const OGRSpatialReferenceH system = gdal().GDALGetSpatialRef(placed);
   said.crs = wkt_of(system);
   if (system != nullptr) {

@@ -24,7 +24,7 @@ namespace terrella {
   X(CPLGetErrorHandlerUserData) X(CPLPopErrorHandler) X(CPLPushErrorHandlerEx) X(CPLSetThreadLocalConfigOption) \
   X(CSLCount) X(GDALAllRegister) X(GDALClose) X(GDALDatasetRasterIOEx) X(GDALGetBandDataset) X(GDALGetBlockSize) \
   X(GDALGetColorEntryAsRGB) X(GDALGetColorEntryCount) X(GDALGetDatasetDriver) X(GDALGetDescription) \
-  X(GDALGetDriver) X(GDALGetDriverCount) X(GDALGetGCPCount) X(GDALGetGCPSpatialRef) X(GDALGetGeoTransform) \
+  X(GDALGetDriver) X(GDALGetDriverCount) X(GDALGetGCPCount) X(GDALGetGeoTransform) \
   X(GDALGetMaskBand) X(GDALGetMaskFlags) X(GDALGetMetadata) X(GDALGetMetadataItem) X(GDALGetOverview) \
   X(GDALGetOverviewCount) X(GDALGetRasterBand) X(GDALGetRasterBandXSize) X(GDALGetRasterBandYSize) \
   X(GDALGetRasterColorInterpretation) X(GDALGetRasterColorTable) X(GDALGetRasterCount) X(GDALGetRasterDataType) \

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 #include <set>
+#include <string_view>
 
 #include "base/number.h"
 #include "streaming/file_bytes.h"
@@ -15,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostVrtBytes = 16U << 20;
+/// First bytes of a file that tell if it is a description.
+constexpr std::size_t kVrtHeadBytes = 4096;
 /// Descriptions that describe descriptions end here.
 constexpr int kMostDepth = 8;
 
@@ -39,10 +42,12 @@ class SourceCheck : public pugi::xml_tree_walker {
 
   /// `seen`: descriptions that were checked.
   static Status check_file(const fs::path& path, std::set<fs::path>& seen, int depth) {
+    const auto head = read_head(path, kVrtHeadBytes);
+    if (!head) return Error{head.error().message};
+    if (as_text(*head).find("<VRTDataset") == std::string_view::npos) return Done{};
     const auto bytes = read_head(path, kMostVrtBytes);
     if (!bytes) return Error{bytes.error().message};
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (text.substr(0, 4096).find("<VRTDataset") == std::string_view::npos) return Done{};
+    const std::string_view text = as_text(*bytes);
     if (depth > kMostDepth) return Error{path.string() + ": its description names descriptions that name descriptions"};
     pugi::xml_document document;
     if (!document.load_buffer(text.data(), text.size())) {
