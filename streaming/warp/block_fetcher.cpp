@@ -23,9 +23,11 @@ std::optional<BlockFetcher::Encoded> BlockFetcher::work(const TileWish& wish) {
     if (!job) return job.error();
     tile.job.emplace(*std::move(job));
   }
-  const std::vector<TileId> missing = look(tile);
+  const std::uint64_t arrivals = settle(tile);
+  tile.job->advance();
+  const std::vector<TileId> missing = tile.job->missing();
   if (missing.empty()) return tile.job->result(numbers_);
-  if (desk_.is_wanted(wish.number)) wait_for(wish, tile, missing);
+  if (desk_.is_wanted(wish.number)) wait_for(wish, tile, missing, arrivals);
   return std::nullopt;
 }
 
@@ -36,39 +38,32 @@ BlockFetcher::Tile& BlockFetcher::tile_of(const TileWish& wish) {
   return tile->second;
 }
 
-/// Settles the answers that came and looks for blocks that are not known. Other wishes may have brought a missing block
-/// during the look, so it looks for a second time. Returns what has to be fetched.
-std::vector<TileId> BlockFetcher::look(Tile& tile) {
-  std::vector<TileId> missing;
-  std::vector<TileId> came;
-  std::unique_lock lock(mutex_);
-  for (int again = 0; again < 2; ++again) {
-    const std::vector<Answer> answers = std::exchange(tile.answers, {});
-    const std::uint64_t arrivals = arrivals_;
-    lock.unlock();
-    for (const Answer& answer : answers) tile.job->settle(answer.stored, answer.found);
-    for (const TileId& stored : came) tile.job->look_again(stored);
-    tile.job->advance();
-    missing = tile.job->missing();
-    lock.lock();
-    if (arrivals == arrivals_) break;
-    came.clear();
-    std::ranges::copy_if(missing, std::back_inserter(came),
-                         [this](const TileId& stored) { return !waiting_.contains(stored); });
-    if (came.empty()) break;
+/// Settles the answers that came. Returns the count of all answers so far.
+std::uint64_t BlockFetcher::settle(Tile& tile) {
+  std::vector<Answer> answers;
+  std::uint64_t arrivals = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    answers.swap(tile.answers);
+    arrivals = arrivals_;
   }
-  return missing;
+  for (const Answer& answer : answers) tile.job->settle(answer.stored, answer.found);
+  return arrivals;
 }
 
-/// Does nothing if an answer came meanwhile: the desk then goes on with the wish.
-void BlockFetcher::wait_for(const TileWish& wish, Tile& tile, const std::vector<TileId>& missing) {
+/// Does nothing if an answer came meanwhile: the desk then goes on with the wish. `arrivals`: the count of answers
+/// before the blocks were looked up.
+void BlockFetcher::wait_for(const TileWish& wish, Tile& tile, const std::vector<TileId>& missing,
+                            std::uint64_t arrivals) {
   std::vector<TileId> unasked;
   double priority = 0.0;
+  bool may_have_come = false;
   {
     const std::lock_guard lock(mutex_);
     if (!tile.answers.empty()) return;
     tile.missing = missing;
     priority = tile.priority;
+    may_have_come = arrivals != arrivals_;
     for (const TileId& stored : missing) {
       const auto [waiting, is_new] = waiting_.try_emplace(stored);
       if (std::ranges::find(waiting->second, wish.number) == waiting->second.end())
@@ -76,11 +71,14 @@ void BlockFetcher::wait_for(const TileWish& wish, Tile& tile, const std::vector<
       is_new ? unasked.push_back(stored) : network_.set_priority(stored, priority_of(stored));
     }
   }
-  for (const TileId& stored : unasked) ask(stored, priority);
+  for (const TileId& stored : unasked) ask(stored, priority, may_have_come);
 }
 
-void BlockFetcher::ask(const TileId& stored, double priority) {
+/// Looks the block up once more if another wish may have brought it since the first look.
+void BlockFetcher::ask(const TileId& stored, double priority, bool may_have_come) {
   try {
+    Encoded here = may_have_come ? blocks_->read(stored) : TileFailure{MissingKind::remote, {}};
+    if (here || here.error().kind != MissingKind::remote) return arrive(stored, std::move(here));
     network_.fetch(stored, priority, [fetcher = weak_from_this(), stored](Encoded answer) {
       if (const auto self = fetcher.lock()) self->arrive(stored, std::move(answer));
     });

@@ -42,9 +42,9 @@ class BlockFetcher : public std::enable_shared_from_this<BlockFetcher> {
   // thread: the desk's
   [[nodiscard]] std::optional<Encoded> work(const TileWish& wish);
   [[nodiscard]] Tile& tile_of(const TileWish& wish);
-  [[nodiscard]] std::vector<TileId> look(Tile& tile);
-  void wait_for(const TileWish& wish, Tile& tile, const std::vector<TileId>& missing);
-  void ask(const TileId& stored, double priority);
+  [[nodiscard]] std::uint64_t settle(Tile& tile);
+  void wait_for(const TileWish& wish, Tile& tile, const std::vector<TileId>& missing, std::uint64_t arrivals);
+  void ask(const TileId& stored, double priority, bool may_have_come);
 
   // thread: any
   void move(const TileWish& wish);

@@ -37,6 +37,8 @@ class StoredBlocks {
   [[nodiscard]] RemoteTiles* network() const { return raster_->remote(); }
   /// The block as the raster names it.
   [[nodiscard]] TileId stored(const TileId& block) const;
+  /// Reads a block, as the raster names it, without a request.
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& stored) const { return raster_->read(stored); }
   /// Looks a block up without a request.
   [[nodiscard]] FoundBlock find(const TileId& block) const;
   /// Decodes a block, unless it is decoded already. Broken if it has another size than its level says.

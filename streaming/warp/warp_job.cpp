@@ -67,12 +67,6 @@ void WarpJob::settle(const TileId& stored, const FoundBlock& found) {
   }
 }
 
-void WarpJob::look_again(const TileId& stored) {
-  for (Piece& piece : pieces_) {
-    if (piece.state == State::missing && blocks_->stored(piece.from) == stored) take(piece, blocks_->find(piece.from));
-  }
-}
-
 void WarpJob::look(Piece& piece) {
   if (piece.state != State::open || failed_) return;
   take(piece, blocks_->find(piece.from));

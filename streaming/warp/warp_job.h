@@ -22,8 +22,6 @@ class WarpJob {
   [[nodiscard]] std::vector<TileId> missing() const;
   /// Takes the answer for a missing block.
   void settle(const TileId& stored, const FoundBlock& found);
-  /// Looks a missing block up for a second time.
-  void look_again(const TileId& stored);
   /// Result of a finished job: an EncodedTile that makes the picture or the numbers, or the reason why there is none.
   /// The error names the block.
   [[nodiscard]] Result<EncodedTile, TileFailure> result(bool numbers) const;

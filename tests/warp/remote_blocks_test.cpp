@@ -4,10 +4,12 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <future>
 #include <map>
 #include <mutex>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -45,8 +47,15 @@ class FarBlocks : public RasterSource, public RemoteTiles {
                      .to_crs = {-180.0, 0.5, 0.0, 90.0, 0.0, -0.5}}};
   }
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
-  [[nodiscard]] Encoded read(const TileId&) override {
+  [[nodiscard]] Encoded read(const TileId& id) override {
     if (throws) throw std::bad_alloc();
+    bool is_kept = false;
+    {
+      const std::lock_guard lock(mutex_);
+      is_kept = kept_.contains(id);
+    }
+    if (on_read) on_read(id);
+    if (is_kept) return gray_block();
     return TileFailure{MissingKind::remote, {}};
   }
   [[nodiscard]] RemoteTiles* remote() override { return this; }
@@ -54,6 +63,7 @@ class FarBlocks : public RasterSource, public RemoteTiles {
     if (refuses) throw std::runtime_error("no more threads");
     const std::lock_guard lock(mutex_);
     asked_[id] = std::move(done);
+    ++requests_[id];
     changed_.notify_all();
   }
   void set_priority(const TileId&, double) override {}
@@ -61,18 +71,37 @@ class FarBlocks : public RasterSource, public RemoteTiles {
     const std::lock_guard lock(mutex_);
     asked_.erase(id);
   }
-  /// Answers what is asked. False if nothing is asked for a moment.
+  /// Answers what is asked, and keeps it as a cache does. False if nothing is asked for a moment.
   bool answer() {
     std::map<TileId, Done> asked;
     {
       std::unique_lock lock(mutex_);
       changed_.wait_for(lock, std::chrono::milliseconds(10), [this] { return !asked_.empty(); });
       asked.swap(asked_);
+      for (const auto& [id, done] : asked) kept_.insert(id);
     }
     for (const auto& [id, done] : asked) done(gray_block());
     return !asked.empty();
   }
+  /// Does so for one block. False if it is not asked for.
+  bool answer(const TileId& id) {
+    Done done;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto asked = asked_.extract(id);
+      if (asked.empty()) return false;
+      done = asked.mapped();
+      kept_.insert(id);
+    }
+    done(gray_block());
+    return true;
+  }
+  [[nodiscard]] std::map<TileId, int> requests() {
+    const std::lock_guard lock(mutex_);
+    return requests_;
+  }
 
+  std::function<void(const TileId&)> on_read;  ///< called at the end of read(); set it while no tile is wished for
   std::atomic<bool> throws = false, refuses = false;
 
  private:
@@ -80,6 +109,8 @@ class FarBlocks : public RasterSource, public RemoteTiles {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<TileId, Done> asked_;
+  std::map<TileId, int> requests_;
+  std::set<TileId> kept_;
 };
 
 struct FarRaster : testing::Test {
@@ -135,6 +166,38 @@ TEST_F(FarRaster, ABlockThatCannotBeAskedForFailsTheTileAndTheNextOneComes) {
   auto next = fetch();
   while (next.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) network->answer();
   EXPECT_TRUE(next.get());
+  EXPECT_TRUE(ends());
+}
+
+/// The parent of a tile looks for the blocks of the tile, and each comes just after it was looked for and not found:
+/// some at the first look, some at a later one.
+TEST_F(FarRaster, BlocksThatComeDuringALookAreRequestedOnce) {
+  std::map<TileId, int> looks;
+  std::atomic<bool> is_second = false;
+  bool one_came = false;
+  std::promise<void> came;
+  network->on_read = [&](const TileId& block) {
+    if (!is_second) return;
+    const int look = ++looks[block];
+    if (look == 1 && !one_came) one_came = network->answer(block);
+    if (look != 2) return;
+    for (const auto& [asked, times] : network->requests()) network->answer(asked);
+    is_second = false;
+    came.set_value();
+  };
+  id = {.level = id.level - 1, .x = 1, .y = 1};
+  auto first_tile = fetch();
+  while (network->requests().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  is_second = true;
+  id = {.level = id.level - 1, .x = 0, .y = 0};
+  auto second_tile = fetch();
+  ASSERT_EQ(came.get_future().wait_for(kLongest), std::future_status::ready);
+  for (auto* tile : {&first_tile, &second_tile}) {
+    while (tile->wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) network->answer();
+    EXPECT_TRUE(tile->get());
+  }
+  EXPECT_TRUE(one_came);
+  for (const auto& [block, times] : network->requests()) EXPECT_EQ(times, 1) << block.x << ' ' << block.y;
   EXPECT_TRUE(ends());
 }
 
