@@ -7,9 +7,9 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/process/process.h"
 #include "apps/program/command_line.h"
 #include "apps/program/commands.h"
-#include "apps/setup/process.h"
 
 namespace {
 

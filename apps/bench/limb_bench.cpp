@@ -14,7 +14,7 @@
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/truth/limb_rows.h"
 #include "apps/bench/value_of.h"
-#include "apps/setup/data_dir.h"
+#include "apps/process/data_dir.h"
 #include "globe/globe.h"
 #include "render/gl/offscreen.h"
 #include "streaming/sets/open_tile_set.h"

@@ -13,7 +13,7 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/value_of.h"
-#include "apps/scene/scene_objects.h"
+#include "apps/open_scene/scene_objects.h"
 #include "render/gl/offscreen.h"
 
 namespace terrella::bench {

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "apps/bench/gnuplot.h"
-#include "apps/setup/write_file.h"
+#include "apps/process/write_file.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella::bench {

@@ -15,7 +15,7 @@
 #include "apps/bench/sources/counting_source.h"
 #include "apps/bench/sources/endless_source.h"
 #include "apps/preload/flight_tiles.h"
-#include "apps/setup/data_dir.h"
+#include "apps/process/data_dir.h"
 #include "geo/body.h"
 
 namespace terrella::bench {

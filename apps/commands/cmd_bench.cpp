@@ -13,12 +13,12 @@
 #include "apps/bench/benches.h"
 #include "apps/bench/report_files.h"
 #include "apps/bench/report_page.h"
+#include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/options/option_checks.h"
+#include "apps/process/console.h"
+#include "apps/process/stop_signals.h"
+#include "apps/process/write_file.h"
 #include "apps/program/commands.h"
-#include "apps/scene/option_checks.h"
-#include "apps/setup/console.h"
-#include "apps/setup/open_imagery.h"
-#include "apps/setup/stop_signals.h"
-#include "apps/setup/write_file.h"
 
 namespace terrella {
 namespace {

@@ -5,14 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/open_scene/open_remote_tiff.h"
+#include "apps/open_scene/options/number_options.h"
+#include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/place_options.h"
+#include "apps/process/console.h"
+#include "apps/process/progress.h"
+#include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
-#include "apps/scene/number_options.h"
-#include "apps/scene/option_checks.h"
-#include "apps/scene/place_options.h"
-#include "apps/setup/console.h"
-#include "apps/setup/open_remote_tiff.h"
-#include "apps/setup/progress.h"
-#include "apps/setup/stop_signals.h"
 #include "base/number.h"
 #include "geo/body.h"
 #include "streaming/cut.h"

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/process/console.h"
+#include "apps/process/progress.h"
+#include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
-#include "apps/setup/console.h"
-#include "apps/setup/progress.h"
-#include "apps/setup/stop_signals.h"
 #include "streaming/cache/merge_caches.h"
 
 namespace terrella {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "apps/open_scene/open_cache.h"
 #include "apps/preload/missing_report.h"
 #include "apps/preload/preload_options.h"
 #include "apps/preload/preload_plan.h"
@@ -16,12 +17,11 @@
 #include "apps/preload/preload_report.h"
 #include "apps/preload/preload_room.h"
 #include "apps/preload/preload_source.h"
+#include "apps/process/console.h"
+#include "apps/process/open_files.h"
+#include "apps/process/stop_signals.h"
+#include "apps/process/tile_list_file.h"
 #include "apps/program/commands.h"
-#include "apps/setup/console.h"
-#include "apps/setup/open_cache.h"
-#include "apps/setup/open_files.h"
-#include "apps/setup/stop_signals.h"
-#include "apps/setup/tile_list_file.h"
 #include "streaming/preload/one_column.h"
 #include "streaming/preload/wanted_tiles.h"
 

@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/open_scene/open_rasters.h"
+#include "apps/open_scene/options/option_checks.h"
+#include "apps/process/console.h"
+#include "apps/process/stop_signals.h"
+#include "apps/process/write_file.h"
+#include "apps/process/write_picture.h"
 #include "apps/program/commands.h"
 #include "apps/program/scene_picture.h"
-#include "apps/scene/option_checks.h"
-#include "apps/setup/console.h"
-#include "apps/setup/open_rasters.h"
-#include "apps/setup/stop_signals.h"
-#include "apps/setup/write_file.h"
-#include "apps/setup/write_picture.h"
 
 namespace terrella {
 namespace {

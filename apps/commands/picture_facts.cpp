@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/scene/place_options.h"
+#include "apps/open_scene/options/place_options.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
 #include "streaming/georeference/figure.h"

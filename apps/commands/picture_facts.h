@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/setup/open_remote_tiff.h"
+#include "apps/open_scene/open_remote_tiff.h"
 #include "base/result.h"
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/georeference/place_words.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 #include "streaming/georeference/crs_text.h"
 
 namespace terrella {

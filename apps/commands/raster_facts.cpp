@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/commands/picture_report.h"
-#include "apps/setup/console.h"
-#include "apps/setup/open_imagery.h"
+#include "apps/open_scene/open_imagery.h"
+#include "apps/process/console.h"
 #include "streaming/georeference/crs_text.h"
 #include "streaming/remote/describe_remote.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/opened_rasters.h"
+#include "apps/open_scene/opened_rasters.h"
 #include "streaming/georeference/place_words.h"
 #include "streaming/raster/open_raster.h"
 

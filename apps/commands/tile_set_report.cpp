@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/raster_facts.h"
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 #include "streaming/projection_names.h"
 #include "streaming/sets/tileset_json.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 
 namespace terrella {
 namespace {

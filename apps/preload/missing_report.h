@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/setup/tile_list_file.h"
+#include "apps/process/tile_list_file.h"
 #include "base/result.h"
 #include "streaming/preload/preloader.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "apps/scene/option_checks.h"
-#include "apps/scene/remote_set_options.h"
+#include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/remote_set_options.h"
 #include "base/number.h"
 #include "tiles/tile_grid.h"
 

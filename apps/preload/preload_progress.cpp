@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 
 namespace terrella {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "apps/open_scene/open_cache.h"
 #include "apps/preload/preload_progress.h"
-#include "apps/setup/open_cache.h"
 #include "streaming/cache/cache_limit.h"
 #include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_schema.h"

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/setup/fetch_description.h"
-#include "apps/setup/open_remote_tiff.h"
-#include "apps/setup/stop_signals.h"
+#include "apps/open_scene/fetch_description.h"
+#include "apps/open_scene/open_remote_tiff.h"
+#include "apps/process/stop_signals.h"
 #include "geo/body.h"
 #include "streaming/numbers/sample_tiles.h"
 #include "streaming/raster/raster_pixels.h"

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/process/console.h"
 #include "apps/program/commands.h"
-#include "apps/setup/console.h"
 #include "apps/viewer/tools/folder_list.h"
 
 namespace terrella {

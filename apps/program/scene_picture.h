@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_options.h"
+#include "apps/open_scene/options/scene_options.h"
 #include "base/result.h"
 #include "codecs/image.h"
 #include "globe/globe.h"

@@ -15,6 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/open_scene/scene_overlays.h"
+#include "apps/process/console.h"
+#include "apps/process/stop_signals.h"
 #include "apps/program/command_line.h"
 #include "apps/program/commands.h"
 #include "apps/program/scene_picture.h"
@@ -22,9 +25,6 @@
 #include "apps/python/bindings.h"
 #include "apps/python/gl_thread.h"
 #include "apps/python/long_call.h"
-#include "apps/scene/scene_overlays.h"
-#include "apps/setup/console.h"
-#include "apps/setup/stop_signals.h"
 #include "streaming/objects/geojson_objects.h"
 #include "streaming/url.h"
 

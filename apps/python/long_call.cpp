@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "apps/process/console.h"
+#include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
-#include "apps/setup/console.h"
-#include "apps/setup/stop_signals.h"
 #include "streaming/url.h"
 
 namespace terrella {

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "apps/process/data_dir.h"
 #include "apps/python/bindings.h"
 #include "apps/python/long_call.h"
-#include "apps/setup/data_dir.h"
 
 namespace {
 

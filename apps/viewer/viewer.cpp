@@ -10,7 +10,7 @@
 #include <iterator>
 #include <utility>
 
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 #include "apps/viewer/panels/control_column.h"
 #include "apps/viewer/panels/legend.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_options.h"
+#include "apps/open_scene/options/scene_options.h"
 #include "apps/viewer/action.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"

@@ -63,4 +63,9 @@ PictureKind picture_kind(const fs::path& path) {
   return is_raster ? PictureKind::raster : PictureKind::none;
 }
 
+bool begins_as_picture(const fs::path& path) {
+  const auto head = read_head(path, 12);
+  return head && (sniff_format(*head) != ImageFormat::unknown || begins_as_tiff(as_text(*head)));
+}
+
 }  // namespace terrella

@@ -16,4 +16,7 @@ enum class PictureKind {
 /// Blocks. thread: any
 [[nodiscard]] PictureKind picture_kind(const std::filesystem::path& path);
 
+/// True for a file with the first bytes of a JPEG, PNG, WebP or TIFF. thread: any
+[[nodiscard]] bool begins_as_picture(const std::filesystem::path& path);
+
 }  // namespace terrella

@@ -1,4 +1,4 @@
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
-#include "apps/setup/open_imagery.h"
+#include "apps/open_scene/open_imagery.h"
 #include "tests/remote_tiff/served_folder.h"
 #include "tests/support/scratch_folder.h"
 

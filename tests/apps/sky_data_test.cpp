@@ -1,5 +1,5 @@
 // The files of the sky as they are shipped, and what is said where one is missing or damaged.
-#include "apps/setup/sky_data.h"
+#include "apps/open_scene/sky_data.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

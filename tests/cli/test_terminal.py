@@ -142,4 +142,4 @@ class TerminalTest(ProgramTest):
         prints = re.compile(r"fmt::print\((stderr|stdout|\"|format)|std::(cout|cerr|puts|printf|fprintf\(std)")
         for path in sorted((SOURCE / "apps").rglob("*.cpp")):
             if path.name not in own and "examples" not in path.parts:
-                self.assertIsNone(prints.search(path.read_text()), f"{path}: print with apps/setup/console.h")
+                self.assertIsNone(prints.search(path.read_text()), f"{path}: print with apps/process/console.h")

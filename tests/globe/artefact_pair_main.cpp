@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/scene/scene_objects.h"
-#include "apps/scene/scene_options.h"
-#include "apps/setup/open_imagery.h"
-#include "apps/setup/write_file.h"
+#include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/scene_objects.h"
+#include "apps/process/write_file.h"
 #include "codecs/image.h"
 #include "globe/experiments.h"
 #include "render/gl/offscreen.h"

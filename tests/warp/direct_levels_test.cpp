@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "painted_raster.h"
-#include "streaming/direct/direct_tiles.h"
+#include "streaming/warp/direct_tiles.h"
 #include "streaming/warp/warp_source.h"
 
 namespace terrella {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
-#include "apps/scene/bounds_view.h"
-#include "apps/scene/scene_numbers.h"
+#include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/scene_numbers.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
 #include "surface/layers.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_numbers.h"
+#include "apps/open_scene/scene_numbers.h"
 #include "view/number_look.h"
 
 namespace terrella {

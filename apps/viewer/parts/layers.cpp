@@ -8,8 +8,8 @@
 #include <iterator>
 #include <utility>
 
-#include "apps/scene/scene_objects.h"
-#include "apps/setup/console.h"
+#include "apps/open_scene/scene_objects.h"
+#include "apps/process/console.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/tools/recent_files.h"

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "apps/setup/write_file.h"
+#include "apps/process/write_file.h"
 #include "apps/viewer/panels/measure_row.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/tools/measure_export.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "apps/setup/data_dir.h"
+#include "apps/process/data_dir.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/panels/readout.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/setup/user_folder.h"
+#include "apps/process/user_folder.h"
 #include "apps/viewer/panels/readout.h"
 #include "apps/viewer/tools/kept_json.h"
 

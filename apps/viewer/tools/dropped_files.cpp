@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/setup/console.h"
+#include "apps/process/console.h"
 #include "streaming/file_bytes.h"
 #include "streaming/objects/gltf_model.h"
 #include "streaming/url.h"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
-#include "apps/scene/scene_numbers.h"
-#include "apps/setup/open_imagery.h"
+#include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/scene_numbers.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/objects/geojson_objects.h"
 

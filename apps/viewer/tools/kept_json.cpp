@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "apps/setup/write_file.h"
+#include "apps/process/write_file.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 

@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/scene/scene_options.h"
-#include "apps/setup/user_folder.h"
-#include "apps/setup/write_file.h"
+#include "apps/open_scene/options/scene_options.h"
+#include "apps/process/user_folder.h"
+#include "apps/process/write_file.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/setup/data_dir.h"
+#include "apps/process/data_dir.h"
 #include "apps/viewer/tools/gazetteer.h"
 #include "objects/label_layout.h"
 #include "streaming/file_bytes.h"

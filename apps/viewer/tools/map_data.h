@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/scene/scene_options.h"
+#include "apps/open_scene/options/scene_options.h"
 #include "base/result.h"
 #include "geo/body.h"
 #include "objects/map_labels.h"

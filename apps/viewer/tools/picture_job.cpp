@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/scene_options.h"
-#include "apps/setup/write_file.h"
+#include "apps/open_scene/options/scene_options.h"
+#include "apps/process/write_file.h"
 #include "codecs/image.h"
 
 namespace terrella {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/setup/user_folder.h"
+#include "apps/process/user_folder.h"
 #include "apps/viewer/tools/kept_json.h"
 #include "streaming/url.h"
 

@@ -14,8 +14,8 @@
 #include "streaming/cut/growing/coarse_raster.h"
 #include "streaming/cut/input/cut_input.h"
 #include "streaming/cut/input/picture_place.h"
-#include "streaming/direct/direct_tiles.h"
 #include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/direct_tiles.h"
 #include "streaming/warp/make_warp_source.h"
 
 namespace terrella {

@@ -10,9 +10,9 @@
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/cut/input/rolled_rows.h"
 #include "streaming/cut/input/warped_input.h"
-#include "streaming/direct/direct_tiles.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/gdal_advice.h"
+#include "streaming/warp/direct_tiles.h"
 
 namespace terrella {
 namespace {

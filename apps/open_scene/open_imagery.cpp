@@ -1,0 +1,251 @@
+#include "apps/open_scene/open_imagery.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "apps/open_scene/open_cache.h"
+#include "apps/open_scene/open_picture.h"
+#include "apps/open_scene/open_rasters.h"
+#include "apps/open_scene/open_remote.h"
+#include "apps/process/console.h"
+#include "apps/process/data_dir.h"
+#include "apps/process/user_folder.h"
+#include "codecs/image.h"
+#include "streaming/cut/input/row_reader.h"
+#include "streaming/file_bytes.h"
+#include "streaming/georeference/figure.h"
+#include "streaming/georeference/length_unit.h"
+#include "streaming/raster/picture_kind.h"
+#include "streaming/raster/tiff_tags.h"
+#include "streaming/remote/describe_remote.h"
+#include "streaming/remote/web_address.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/web_mercator.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tile set whose description is overridden by the command line.
+class DescribedSource : public TileSource {
+ public:
+  DescribedSource(std::shared_ptr<TileSource> tiles, TileSetInfo info)
+      : tiles_(std::move(tiles)), info_(std::move(info)) {}
+  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
+  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
+  [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
+  [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
+  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
+  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
+  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
+    return tiles_->value_at(place, figure);
+  }
+
+ private:
+  std::shared_ptr<TileSource> tiles_;
+  TileSetInfo info_;
+};
+
+Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
+  if (names_mosaic(options.tile_set)) {
+    auto tiles = open_many_rasters(options, MosaicPixels::as_stored);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
+  if (is_remote(options.tile_set)) return open_remote(options);
+  if (const Status found = find_imagery(options); !found) return found.error();
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+  const bool said_geodetic = options.projection == Projection::equirectangular;
+  const bool picture = is_picture(path);
+  if (!picture && options.place != PlaceWords{}) {
+    return Error{
+        fmt::format("{}: --crs, --bounds and --west place a picture, and this is a tile set, which says itself "
+                    "where it lies; leave them out",
+                    path.string())};
+  }
+  const NumberOptions& numbers = options.numbers;
+  if (!picture && (numbers.bands || numbers.band > 0 || numbers.nodata)) {
+    return Error{
+        fmt::format("{}: --band, --bands and --nodata choose what is read of a TIFF, and this is a tile set; "
+                    "leave them out",
+                    path.string())};
+  }
+  if (picture) return open_picture(path, options, told);
+  auto tiles = open_tile_set(path, said_geodetic);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+/// Options for opening the heights. The description and server options of TILESET do not apply. A cache holds one
+/// source's tiles, so the heights' cache stands beside a given --cache.
+SceneOptions heights_options(const SceneOptions& options) {
+  SceneOptions heights = options;
+  heights.tile_set = options.elevation;
+  heights.projection.reset();
+  heights.latitude.reset();
+  heights.place = {};
+  heights.numbers = {};
+  heights.numbers.heights = true;
+  heights.remote = {};
+  if (!options.cache.empty() && options.cache != "off") {
+    const fs::path cache = options.cache;
+    heights.cache = (cache.parent_path() / (cache.stem().string() + "-heights.gpkg")).string();
+  }
+  return heights;
+}
+
+/// `field` is the field of a description for the address.
+Error no_meaning(const Url& address, const char* field) {
+  return Error{fmt::format(
+      "{}: nothing says what the numbers in its tiles mean in metres; write a description that does, for example "
+      "heights.json with {{\"{}\": \"…\", \"max_level\": 8, \"elevation\": {{\"scale\": 1, \"offset\": -32768}}}}, and "
+      "give "
+      "--elevation heights.json (streaming/remote/README.md)",
+      address.redacted(), field)};
+}
+
+}  // namespace
+
+bool is_picture(const fs::path& path) {
+  if (picture_kind(path) != PictureKind::none) return true;
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return false;
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"};
+  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+}
+
+Result<fs::path> picture_cache_folder(const std::string& cache) {
+  if (!cache.empty()) {
+    const fs::path path = cache;
+    if (path.extension() == ".gpkg") return path.parent_path() / (path.stem().string() + "-pictures");
+    return path;
+  }
+  if (const auto folder = user_folder("XDG_CACHE_HOME", ".cache")) return *folder;
+  return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
+}
+
+Status find_imagery(const SceneOptions& options) {
+  if (is_remote(options.tile_set) || names_mosaic(options.tile_set)) return Done{};
+  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+  std::error_code failed;
+  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
+  return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
+}
+
+std::string name_of(const SceneOptions& options) {
+  return options.tile_set.empty() ? "the included Earth" : options.tile_set.redacted();
+}
+
+/// Fails if the tiles are of another body than the globe.
+Status check_body(const SceneOptions& options, const TileSetInfo& info) {
+  if (!options.body || info.body.empty()) return Done{};
+  const auto said = parse_body(info.body);
+  if (said && !are_two_bodies(*said, *options.body)) return Done{};
+  const std::string radius = said ? fmt::format(" (radius {:.0f} m)", said->ellipsoid.a_m()) : std::string();
+  return Error{fmt::format("{}: its tiles are of the body {}{}, and the globe is {} (radius {:.0f} m); {}",
+                           name_of(options), info.body, radius, options.body->name, options.body->ellipsoid.a_m(),
+                           options.tile_set.empty() ? "name a tile set of that body"
+                                                    : "say which it is with --body, or leave this tile set out")};
+}
+
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
+  auto tiles = open_named(options, progress);
+  if (!tiles) return tiles.error();
+  TileSetInfo info = (*tiles)->info();
+  if (Status same = check_body(options, info); !same) return same.error();
+  const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
+  if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
+    return Error{name_of(options) + (mercator
+                                         ? ": it is in Web Mercator, and --projection says otherwise; leave that out"
+                                         : ": it is not in Web Mercator by what it says of itself, as --projection "
+                                           "says; leave that out")};
+  }
+  if (mercator) return tiles;
+  info.grid.projection = options.projection.value_or(info.grid.projection);
+  info.grid.latitude = options.latitude.value_or(info.grid.latitude);
+  if (info.grid == (*tiles)->info().grid) return tiles;
+  return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
+}
+
+Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+  auto tiles = open_any_tiles(options);
+  if (!tiles || !(*tiles)->info().numbers) return tiles;
+  return Error{
+      fmt::format("{0}: its tiles are numbers, not pictures; name them as TILESET or with --overlay, or heights with "
+                  "--elevation {0}",
+                  options.tile_set.redacted())};
+}
+
+/// Opens tiles whose numbers are in colours, as --elevation-encoding says.
+Result<std::shared_ptr<TileSource>> open_encoded(const SceneOptions& heights, const NumberInfo& encoding) {
+  if (is_remote(heights.tile_set)) {
+    SceneOptions encoded = heights;
+    encoded.remote.numbers = encoding;
+    return open_remote(encoded);
+  }
+  auto stored = open_stored_tile_set(heights.tile_set.with_secrets());
+  if (!stored) return stored.error();
+  TileSetInfo info = (*stored)->info();
+  info.numbers = encoding;
+  auto tiles =
+      as_geodetic(std::make_unique<DescribedSource>(*std::move(stored), std::move(info)), heights.tile_set.redacted());
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+/// Opens the tiles of --elevation: of a tile set, of a raster, or of many.
+Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& options) {
+  const SceneOptions heights = heights_options(options);
+  const bool many = names_mosaic(heights.tile_set);
+  if (many || is_picture(heights.tile_set.with_secrets())) {
+    auto tiles = many ? open_many_rasters(heights, MosaicPixels::heights) : open_height_raster(heights);
+    if (!tiles) return tiles.error();
+    return std::shared_ptr<TileSource>(*std::move(tiles));
+  }
+  if (options.elevation_encoding) return open_encoded(heights, *options.elevation_encoding);
+  // Fails without a request: only a description states the meaning of a server's numbers.
+  if (options.elevation.with_secrets().find("{z}") != std::string::npos) return no_meaning(options.elevation, "url");
+  auto tiles = open_any_tiles(heights);
+  if (tiles && is_remote(options.elevation) && !(*tiles)->info().numbers) return no_meaning(options.elevation, "wmts");
+  return tiles;
+}
+
+/// The same heights in metres, if their unit is another length.
+std::shared_ptr<TileSource> in_metres(std::shared_ptr<TileSource> heights) {
+  TileSetInfo info = heights->info();
+  const auto unit_m = info.numbers ? metres_of_unit(info.numbers->unit) : std::nullopt;
+  if (!unit_m || info.numbers->unit.empty() || info.numbers->unit == "m") return heights;
+  info.numbers->unit = "m";
+  info.numbers->scale *= *unit_m;
+  info.numbers->offset *= *unit_m;
+  return std::make_shared<DescribedSource>(std::move(heights), std::move(info));
+}
+
+Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options) {
+  if (options.elevation.empty()) {
+    if (options.exaggeration != 1.0) {
+      print_message(
+          "terrella: --exaggeration multiplies heights, and there are none; give them with --elevation, or leave "
+          "--exaggeration out\n");
+    }
+    return std::optional<ElevationSource>();
+  }
+  auto tiles = open_height_tiles(options);
+  if (!tiles) return tiles.error();
+  const auto& numbers = (*tiles)->info().numbers;
+  if (numbers && !metres_of_unit(numbers->unit)) {
+    return Error{fmt::format("{}: {}", options.elevation.redacted(), no_length(numbers->unit))};
+  }
+  auto source = ElevationSource::open(with_level_ground(in_metres(*std::move(tiles))), options.elevation.redacted());
+  if (!source) return source.error();
+  return std::optional<ElevationSource>(*std::move(source));
+}
+
+}  // namespace terrella

@@ -1,0 +1,182 @@
+#include "apps/open_scene/open_remote.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "apps/open_scene/fetch_description.h"
+#include "apps/open_scene/open_cache.h"
+#include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/open_remote_tiff.h"
+#include "apps/open_scene/opened_rasters.h"
+#include "apps/process/console.h"
+#include "apps/process/stop_signals.h"
+#include "base/hash_mix.h"
+#include "codecs/image.h"
+#include "streaming/cache/cache_report.h"
+#include "streaming/cache/tile_cache.h"
+#include "streaming/remote/grid_check.h"
+#include "streaming/remote/remote_source.h"
+#include "streaming/sets/open_tile_set.h"
+#include "streaming/warp/web_mercator.h"
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Finest level of a URL template without --max-level. Most servers end earlier; their ancestors replace the missing
+// tiles.
+constexpr int kTemplateMaxLevel = 18;
+constexpr std::size_t kMaxNameBytes = 60;
+
+/// Makes a file name from the address without secrets, and a hash of the rest. A new key or password does not make a
+/// new source.
+std::string cache_name(const SceneOptions& options) {
+  std::string name;
+  for (const char c : options.tile_set.without_query().substr(0, kMaxNameBytes)) {
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  }
+  const RemoteOptions& r = options.remote;
+  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.tile_set), r.layer, r.matrix_set,
+                                  r.style, r.time, r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
+  if (options.projection == Projection::web_mercator) whole += "|web-mercator";
+  return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
+}
+
+Result<fs::path> cache_file(const SceneOptions& options) {
+  if (!options.cache.empty()) return fs::path(options.cache);
+  const auto folder = picture_cache_folder({});
+  if (!folder) return folder.error();
+  std::error_code failed;
+  fs::create_directories(*folder, failed);
+  if (failed) return Error{fmt::format("{}: cannot be made: {}", folder->string(), failed.message())};
+  return *folder / cache_name(options);
+}
+
+/// Opens a TIFF on a server.
+Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const HttpOptions& http) {
+  RemoteTiffWish wish{.url = options.tile_set, .headers = options.remote.headers, .http = http};
+  if (options.cache != "off") {
+    const auto file = cache_file(options);
+    if (!file) say_without_cache(file.error());
+    if (file) wish.cache = *file;
+  }
+  wish.may_replace_cache = options.cache.empty();
+  wish.cache_size_mb = options.cache_size_mb;
+  wish.on_cache_failed = say_without_cache;
+  wish.offline = options.offline;
+  wish.direct = direct_options(options);
+  wish.numbers = options.numbers;
+  auto opened = open_remote_tiff(wish);
+  if (!opened) return opened.error();
+  if (options.opened != nullptr) {
+    options.opened->remote.insert_or_assign(options.tile_set.with_secrets(), opened->tiff);
+  }
+  for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);
+  auto tiles = tiles_of(*std::move(opened), wish.direct);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
+  if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
+  const auto file = cache_file(options);
+  if (!file) return file.error();
+  std::error_code failed;
+  if (!fs::exists(*file, failed)) {
+    return Error{
+        fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
+                    "--offline",
+                    options.tile_set.redacted(), file->string())};
+  }
+  if (version_in_key(read_cache_source(*file), options.tile_set)) return open_tiff(options, {});
+  auto tiles = open_tile_set(*file);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+HttpOptions network_options() {
+  HttpOptions http;
+  http.attempts = 3;
+  // A user may turn the globe this fast, but no server should see an attack.
+  http.rate_per_host = 200.0;
+  http.burst = 100.0;
+  return http;
+}
+
+std::shared_ptr<TileCache> go_without(const Error& why) {
+  say_without_cache(why);
+  return nullptr;
+}
+
+/// Opens the cache; nullptr if the cache is off or not writable. Refuses a file of another kind.
+Result<std::shared_ptr<TileCache>> cache_of(const SceneOptions& options, const RemoteTileSet& set) {
+  if (options.cache == "off") return std::shared_ptr<TileCache>();
+  const auto file = cache_file(options);
+  if (!file) return go_without(file.error());
+  auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb, say_without_cache);
+  if (!cache && cache.error().cannot_write) return go_without(cache.error());
+  if (!cache) return cache.error();
+  return *std::move(cache);
+}
+
+bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid) {
+  if (cache == nullptr) return false;
+  const auto root = cache->peek({grid.min_level, 0, 0});
+  return root && *root;
+}
+
+bool is_template(const SceneOptions& options) {
+  return options.tile_set.with_secrets().find("{z}") != std::string::npos;
+}
+
+/// Compares a few tiles of a URL template before the first picture, because a template states no grid. A wrong grid is
+/// reported instead of drawn. Sets drawn before are skipped: their cache has tiles.
+Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
+  const auto fetch = [&](const TileId& id) -> Result<std::optional<Image>> {
+    const auto bytes = fetch_document(http, tile_url(set, id), set.headers);
+    if (!bytes) return std::optional<Image>();
+    auto image = decode_image(*bytes, DecodeLimits{});
+    return image ? std::optional<Image>(*std::move(image)) : std::nullopt;
+  };
+  const auto check = find_mistaken_grid(fetch, set.info.grid);
+  if (!check) return Done{};  // a failed fetch proves nothing
+  if (check->verdict == GridCheck::Verdict::fits || check->verdict == GridCheck::Verdict::cannot_tell) return Done{};
+  return Error{fmt::format("{}: {}", set.info.name, check->advice)};
+}
+
+Result<std::shared_ptr<TileSource>> open_online(const SceneOptions& options) {
+  HttpOptions http = network_options();
+  if (leads_to_tiff(options.tile_set, options.remote.headers, http)) return open_tiff(options, http);
+  RemoteOptions remote = options.remote;
+  if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
+  if (options.projection) remote.projection = options.projection;
+  auto set = fetch_description(options.tile_set, remote, http);
+  if (!set) return set.error();
+  http = within_limits(http, *set);
+  auto cache = cache_of(options, *set);
+  if (!cache) return cache.error();
+  if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
+    if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
+  }
+  // The cache holds the tiles in the server's projection.
+  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
+  if (options.offline) return open_offline(options);
+  const WaitLimit limit(options.timeout_s);
+  auto opened = open_online(options);
+  if (!opened) return Error{opened.error().message + WaitLimit::advice()};
+  return opened;
+}
+
+}  // namespace terrella

@@ -1,0 +1,290 @@
+#include "apps/open_scene/options/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/place_options.h"
+#include "apps/open_scene/options/remote_set_options.h"
+#include "apps/open_scene/options/surface_options.h"
+#include "apps/open_scene/scene_overlays.h"
+#include "globe/experiments.h"
+#include "sky/almanac.h"
+#include "view/view_limits.h"
+
+namespace terrella {
+namespace {
+
+void add_camera_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--camera",
+          [&options](const std::string& text) { options.camera = parsed_or_throw("--camera", parse_camera(text)); },
+          "Set the eye's place and view, in degrees and metres; the default view is straight down, 40 degrees high. "
+          "ALT "
+          "is the height over the ellipsoid, at most where the planet is a pixel wide. An eye in the ground, or under "
+          "opaque ground without --objects, moves to 1 m above it")
+      ->type_name("LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]");
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { options.size = parsed_or_throw("--size", parse_size(text)); },
+          "Set the picture size in pixels")
+      ->type_name("WxH")
+      ->default_str("1024x1024");
+}
+
+void add_planet_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--body", [&options](const std::string& text) { options.body = parsed_or_throw("--body", parse_body(text)); },
+          "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names())
+      ->type_name("NAME|A,F");
+  add_choice<Projection>(
+      command, "--projection", options.projection,
+      {{"equirectangular", Projection::equirectangular},
+       {"equal-area", Projection::equal_area},
+       {"web-mercator", Projection::web_mercator}},
+      "Set the imagery's projection; its rows are linear in latitude, in the sine of latitude, or as in web maps");
+  add_choice<LatitudeKind>(command, "--latitude", options.latitude,
+                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
+                           "Set the latitude that the imagery's rows count: planetographic or planetocentric");
+}
+
+void add_drawing_options(CLI::App& command, SceneOptions& options) {
+  command.add_flag("--unlit", options.unlit, "Draw the imagery alone: no light, no sky, no text, black background");
+  add_choice<Texturing>(command, "--texturing", options.texturing,
+                        {{"vertex", Texturing::vertex},
+                         {"paper", Texturing::paper},
+                         {"exact", Texturing::exact},
+                         {"auto", Texturing::automatic}},
+                        "Choose the texturing of the pole bands")
+      ->default_str("auto");
+  command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
+      ->check(number_in(2.0, 8.0))
+      ->capture_default_str();
+  add_choice<bool>(
+      command, "--polar-rows", options.squeezed_rows, {{"squeezed", true}, {"full", false}},
+      "Choose the tiles near the poles in a set made by terrella cut: the few squeezed ones, or the full grid")
+      ->default_str("squeezed");
+  command
+      .add_option(
+          "--polar-columns", options.polar_columns,
+          "Limit the tiles in a row under a patch that touches a pole, in sets not made by terrella cut; the patch "
+          "uses coarser tiles instead of more")
+      ->check(whole_number_in(1, 4096))
+      ->capture_default_str();
+  command
+      .add_option("--detail", options.texels_per_pixel,
+                  "Set the texels per pixel: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
+      ->check(number_in(0.125, 8.0))
+      ->capture_default_str();
+  add_choice<Sharpness>(
+      command, "--magnify", options.surface.sharpness,
+      {{"bilinear", Sharpness::bilinear}, {"bicubic", Sharpness::bicubic}, {"auto", Sharpness::automatic}},
+      "Choose the filter of imagery whose texels are larger than pixels; auto is bicubic, and "
+      "bilinear with --unlit")
+      ->default_str("auto");
+  add_choice<DepthMode>(
+      command, "--depth", options.depth,
+      {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
+      "Choose the depth buffer's encoding")
+      ->default_str("reversed");
+}
+
+void add_overlay_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--overlay",
+          [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              options.overlays.push_back(parsed_or_throw("--overlay", parse_overlay(text)));
+            }
+          },
+          "Add a layer of imagery on top, with an opacity from 0 to 1. Transparent pixels and missing tiles show the "
+          "layer below. Repeatable")
+      ->type_name("TILESET[:OPACITY]")
+      ->allow_extra_args(false);
+  add_choice<Projection>(command, "--overlay-projection", options.overlay_projection,
+                         {{"equirectangular", Projection::equirectangular},
+                          {"equal-area", Projection::equal_area},
+                          {"web-mercator", Projection::web_mercator}},
+                         "Set the projection of overlays that do not state it, such as URL templates");
+}
+
+void add_layer_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--night", options.night,
+                  "Add self-luminous imagery for the night side at --time; it fades in through civil twilight")
+      ->type_name("TILESET");
+  command
+      .add_option_function<std::string>(
+          "--clouds",
+          [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
+          "Add white-on-black cloud imagery above all other layers; black is clear. The opacity is 0 to 1")
+      ->type_name("TILESET[:OPACITY]");
+  command
+      .add_option("--cloud-height", options.cloud_height_m,
+                  "Draw --clouds this many metres over the ground, with their shadow; at 0 they lie on the ground")
+      ->check(number_in(0.0, 1.0e6))
+      ->type_name("METRES")
+      ->capture_default_str();
+}
+
+// Parses a time and refuses years outside the almanac.
+Result<UtcTime> parse_time(std::string_view text) {
+  Result<UtcTime> time = parse_utc(text);
+  if (!time) return time;
+  if (const Result<Almanac> almanac = almanac_at(*time); !almanac) {
+    return Error{fmt::format("{}: {}", text, almanac.error().message)};
+  }
+  return time;
+}
+
+void add_sky_options(CLI::App& command, SceneOptions& options) {
+  add_choice<bool>(command, "--sky", options.sky, {{"on", true}, {"off", false}},
+                   "Draw stars, Sun, Moon and atmosphere")
+      ->default_str("on");
+  add_choice<bool>(command, "--glint", options.surface.glint, {{"on", true}, {"off", false}},
+                   "Draw the Sun's glint on the sea at --time")
+      ->default_str("on");
+  command
+      .add_option_function<std::string>(
+          "--time", [&options](const std::string& text) { options.time = parsed_or_throw("--time", parse_time(text)); },
+          "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
+          "viewer's shoulder)")
+      ->type_name("UTC");
+  command.add_option("--objects", options.objects, "Draw points, lines and areas, over and under the ground")
+      ->type_name("F.geojson");
+}
+
+void add_map_options(CLI::App& command, SceneOptions& options) {
+  add_choice<bool>(command, "--map", options.map, {{"on", true}, {"off", false}},
+                   "Draw coastlines, borders, and names of countries and places of the Earth over the picture");
+  command
+      .add_option("--places", options.places,
+                  "Take the names of places from this GeoJSON file of points with a name, on any body, instead of the "
+                  "Earth's cities")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+}
+
+void add_stereo_options(CLI::App& command, SceneOptions& options) {
+  add_choice<Stereo>(command, "--stereo", options.stereo.mode,
+                     {{"off", Stereo::off},
+                      {"side-by-side", Stereo::side_by_side},
+                      {"interlaced", Stereo::interlaced},
+                      {"anaglyph", Stereo::anaglyph}},
+                     "Render for two eyes; the left eye's picture is on the left, in the even rows, or in red")
+      ->default_str("off");
+  command
+      .add_option("--eye-separation", options.stereo.eye_separation_m,
+                  "Set the distance between the eyes in metres (default: 1/30 of the distance to the picture's centre)")
+      ->check(number_in(0.0, 1.0e9))
+      ->type_name("METRES");
+}
+
+void add_cache_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--cache", options.cache,
+                  "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
+                  "TILESET is "
+                  "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
+                  "caches nothing (default: $XDG_CACHE_HOME/terrella or "
+                  "~/.cache/terrella)")
+      ->type_name("FILE|off");
+  command
+      .add_option("--cache-size", options.cache_size_mb, "Limit the cache file for tiles from servers, in megabytes")
+      ->check(whole_number_in(64, 1 << 24))
+      ->type_name("MB")
+      ->capture_default_str();
+  command.add_option("--memory", options.memory_mb, "Limit the memory for decoded tiles, in megabytes")
+      ->check(whole_number_in(64, 65536))
+      ->type_name("MB")
+      ->capture_default_str();
+  command.add_flag("--offline", options.offline, "Use the cache alone and send no request");
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option(
+          "tileset", options.tile_set,
+          "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
+          "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
+          "TIFF, or "
+          "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
+      ->type_name("TILESET");
+  add_camera_options(command, options);
+  add_planet_options(command, options);
+  add_place_options(command, options.place);
+  add_number_options(command, options.numbers, options.band);
+  add_drawing_options(command, options);
+  add_overlay_options(command, options);
+  add_layer_options(command, options);
+  add_relief_options(command, options);
+  add_translucency_options(command, options);
+  add_sky_options(command, options);
+  add_map_options(command, options);
+  add_stereo_options(command, options);
+  add_cache_options(command, options);
+  add_remote_set_options(command, options.remote);
+}
+
+Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
+  if (options.body) return *options.body;
+  if (info.body.empty()) return earth();
+  auto said = parse_body(info.body);
+  if (!said) return Error{info.name + ": its description names the body '" + info.body + "': " + said.error().message};
+  return said;
+}
+
+Camera first_camera(const SceneOptions& options, const Body& body, const GeoRect& bounds, Viewport picture) {
+  if (options.camera) return *options.camera;
+  Camera whole;
+  whole.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
+  whole.eye.height_m = whole_globe_height_m(body.ellipsoid, whole.fov_y, picture);
+  const auto part = part_with_data(options.tile_set, bounds);
+  if (!part) return whole;
+  Camera over = camera_over(*part, body.ellipsoid, whole.fov_y, double(picture.width_px) / picture.height_px);
+  over.eye.height_m = std::min(over.eye.height_m, whole.eye.height_m);
+  return over;
+}
+
+GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
+  GlobeOptions globe;
+  globe.body = body;
+  globe.texturing = options.texturing;
+  globe.squeezed_rows = options.squeezed_rows;
+  globe.polar_columns = options.polar_columns;
+  globe.texels_per_pixel = options.texels_per_pixel;
+  globe.depth = options.depth;
+  globe.unlit = options.unlit;
+  globe.surface = options.surface;
+  globe.exaggeration = options.exaggeration;
+  globe.sky = options.sky && !options.unlit;
+  globe.time = options.time;
+  globe.stereo = options.stereo;
+  globe.gpu_bytes = options.memory_mb << 20;
+  return globe;
+}
+
+// A layer of small tiles has few bytes of slots in any driver; the default asks for no certain number.
+std::string memory_note(const SceneOptions& options, const FrameStats& stats) {
+  const std::size_t granted_mb = stats.gpu_bytes_granted >> 20;
+  const bool is_less = options.memory_mb > SceneOptions().memory_mb && granted_mb < options.memory_mb;
+  if (stats.gpu_bytes_granted == 0 || (!is_less && !stats.gpu_memory_refused)) return {};
+  return fmt::format(
+      "--memory {}: the driver gives {} MB for tiles{}", options.memory_mb, granted_mb,
+      stats.gpu_memory_refused ? ", and has no memory for more" : ", as many as its array textures hold");
+}
+
+void set_paper_texturing(Globe& globe, const SceneOptions& options) {
+  Experiments& experiments = Experiments::of(globe);
+  experiments.paper_a = options.paper_a;
+  experiments.paper_band = options.band;
+}
+
+}  // namespace terrella

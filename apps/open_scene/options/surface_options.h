@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "apps/open_scene/options/scene_options.h"
+
+namespace terrella {
+
+/// Adds the options for heights and their light. thread: main
+void add_relief_options(CLI::App& command, SceneOptions& options);
+/// Adds the options for a translucent surface and for views from under the ground. thread: main
+void add_translucency_options(CLI::App& command, SceneOptions& options);
+
+}  // namespace terrella
