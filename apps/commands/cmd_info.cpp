@@ -22,7 +22,7 @@
 #include "streaming/cache/cache_report.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

@@ -8,9 +8,9 @@
 #include <thread>
 #include <utility>
 
-#include "streaming/sets/tile_range.h"
 #include "streaming/tile_lister.h"
 #include "tiles/tile_loader.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

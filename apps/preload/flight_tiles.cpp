@@ -9,6 +9,7 @@
 #include "geo/ellipsoid.h"
 #include "surface/plan/patch_selection.h"
 #include "surface/plan/tile_coverage.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

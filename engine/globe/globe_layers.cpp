@@ -5,6 +5,7 @@
 #include "base/range_check.h"
 #include "globe/globe_impl.h"
 #include "tiles/grid_ranges.h"
+#include "tiles/tile_range.h"
 
 // The image layers and the heights of a globe, and the state that all layers share.
 namespace terrella {
@@ -12,7 +13,6 @@ namespace {
 
 // The projections of tiles as stored are never drawn.
 Status check_source(const TileSetInfo& info) {
-  constexpr std::int64_t kMostRoots = 1'000'000'000;  // each is looked at
   const TileGrid& grid = info.grid;
   const Projection projection = grid.projection;
   const Status good = check_grid(grid, "grid");
@@ -20,8 +20,7 @@ Status check_source(const TileSetInfo& info) {
       .that(projection == Projection::equirectangular || projection == Projection::equal_area,
             "its tiles are in a projection that is not drawn; open the set by open_tile_set()")
       .part("its description is wrong", good)
-      .that(!good || columns(grid, grid.min_level) * rows(grid, grid.min_level) <= kMostRoots,
-            "its coarsest level has more than a thousand million tiles; add coarser levels")
+      .part("its grid", good ? check_root_tiles(grid) : Done{})
       .part("its numbers", info.numbers ? check_numbers(*info.numbers) : Status(Done{}))
       .result();
 }

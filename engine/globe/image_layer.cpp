@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/longitudes.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/hash_mix.h"
-#include "surface/plan/tile_coverage.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

@@ -9,6 +9,7 @@
 #include "geo/longitudes.h"
 #include "tiles/grid_ranges.h"
 #include "tiles/height_decoder.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {
@@ -59,24 +60,24 @@ Result<ElevationSource> ElevationSource::open(std::shared_ptr<TileSource> tiles,
                     "(gdalwarp -te, heights of 0 where there are none)",
                     name, text_of(info.grid.bounds), text_of(covered))};
   }
+  if (const Status roots = check_root_tiles(info.grid); !roots) return Error{name + ": " + roots.error().message};
   ElevationSource source(std::move(tiles));
   if (Status first = source.try_first_tile(name); !first) return first.error();
   return source;
 }
 
 Status ElevationSource::try_first_tile(const std::string& name) const {
-  const int level = grid().min_level;
-  const std::int64_t width = columns(grid(), level);
-  const std::int64_t count = std::min(kMaxLookedAt, width * rows(grid(), level));
-  for (std::int64_t i = 0; i < count; ++i) {
-    const TileId id{.level = level, .x = i % width, .y = i / width};
+  Status good = Done{};
+  std::int64_t left = kMaxLookedAt;
+  for_each_place(grid(), grid().min_level, [&](const TileId& id) {
     const auto heights = read(id);
-    if (heights) return Done{};
-    if (heights.error().kind != MissingKind::broken) continue;
-    return Error{fmt::format("{}: the tile of level {}, column {}, row {} is no tile of heights: {}", name, level, id.x,
-                             id.y, heights.error().why)};
-  }
-  return Done{};
+    if (heights) return false;
+    if (heights.error().kind != MissingKind::broken) return --left > 0;
+    good = Error{fmt::format("{}: the tile of level {}, column {}, row {} is no tile of heights: {}", name, id.level,
+                             id.x, id.y, heights.error().why)};
+    return false;
+  });
+  return good;
 }
 
 Result<HeightTile, TileFailure> ElevationSource::read(const TileId& id) const {

@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "streaming/sets/tile_range.h"
 #include "tiles/height_decoder.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

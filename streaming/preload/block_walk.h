@@ -7,8 +7,8 @@
 
 #include "geo/ellipsoid.h"
 #include "streaming/preload/region.h"
-#include "streaming/sets/tile_range.h"
 #include "tiles/tile_grid.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "streaming/remote/thumbnail.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

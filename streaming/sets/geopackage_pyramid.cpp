@@ -11,9 +11,9 @@
 #include "streaming/sets/gpkg_coverage.h"
 #include "streaming/sets/gpkg_crs.h"
 #include "streaming/sets/gpkg_schema.h"
-#include "streaming/sets/tile_range.h"
 #include "streaming/sets/tileset_json.h"
 #include "tiles/grid_ranges.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

@@ -60,6 +60,31 @@ class FirstView(ProgramTest):
                                          says=["90° to 112.5° east", "--camera"])
                 self.assertNotIn("none of the", done.stderr)
 
+    def city(self):
+        """An MBTiles file of a city alone: four tiles of level 17."""
+        across = 360 / (1 << 17)
+        west = 8.5 // across * across
+        metadata = {"format": "png", "minzoom": "17", "maxzoom": "17", "bounds": f"{west},0,{west + 2 * across},{2 * across}"}
+        with sqlite3.connect(self.folder / "city.mbtiles") as base:
+            base.executescript("""CREATE TABLE metadata (name text, value text); CREATE TABLE tiles (zoom_level integer,
+                tile_column integer, tile_row integer, tile_data blob);""")
+            base.executemany("INSERT INTO metadata VALUES (?, ?)", metadata.items())
+            column, equator = round((west + 180) / across), 1 << 16
+            base.executemany("INSERT INTO tiles VALUES (17, ?, ?, ?)",
+                             [(column + x, equator + y, png(256, 256, COLOUR)) for x in (0, 1) for y in (0, 1)])
+        return "city.mbtiles"
+
+    def test_a_city_without_coarse_levels_is_shown(self):
+        self.assertGreater(self.share(self.city()), 0.2)
+
+    def test_a_grid_with_too_many_coarsest_tiles_is_refused(self):
+        (self.folder / "tiny/0/0").mkdir(parents=True)
+        self.write("tiny/0/0/0.png", png(64, 64, COLOUR))
+        self.write("tiny/tileset.json",
+                   json.dumps({"root_span_deg": 0.1, "tile_px": 64, "max_level": 0, "format": "png"}).encode())
+        self.assert_fails(FAILED, "render", "tiny", "-o", "shot.png", *SMALL,
+                          says=["6480000 tiles", "add coarser levels"])
+
     def test_a_view_without_data_says_where_they_lie(self):
         self.write("part.png", png(64, 64, COLOUR))
         done = self.assert_done("render", "part.png", "--bounds", "100,-40,102,-38", "-o", "shot.png", *SMALL,

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 #include "tiles/tile_source.h"
 
 namespace {

@@ -12,8 +12,8 @@
 
 #include "geo/body.h"
 #include "geo/great_circle.h"
-#include "streaming/sets/tile_range.h"
 #include "tests/preload/plan_support.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

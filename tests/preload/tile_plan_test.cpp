@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "geo/body.h"
-#include "streaming/sets/tile_range.h"
 #include "tests/preload/plan_support.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

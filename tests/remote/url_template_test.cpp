@@ -5,7 +5,7 @@
 #include <set>
 
 #include "streaming/remote/web_address.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

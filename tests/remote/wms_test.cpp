@@ -8,7 +8,7 @@
 
 #include "streaming/raster/tile_raster.h"
 #include "streaming/remote/describe_remote.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

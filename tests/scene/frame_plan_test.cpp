@@ -189,5 +189,16 @@ TEST_F(FramePlans, OfMoreTilesThanThereIsRoomForTakeLessDetail) {
   EXPECT_LE(plan.layers[0].coverage.tiles, small.layers[0].room);
 }
 
+// Each round of the search for a coarser view plans the whole frame.
+TEST_F(FramePlans, KeepTheirDetailIfThereAreNoCoarserTiles) {
+  PatchTree tree(wavy_.body(), {.root_span_deg = 15.0, .tile_px = 256, .max_level = 2}, 4);
+  TileResidency tiles;
+  const FrameSnapshot snapshot{
+      .layers = {{.tree = &tree, .tiles = &tiles, .room = 40}}, .sun = {}, .patch_shuffle = {}};
+  const FramePlan plan = plan_frame(make_view(camera_at(0, 0, 3.0e7), wavy_.body(), {64, 64}), snapshot, {});
+  EXPECT_GT(plan.layers[0].coverage.tiles, 40);
+  EXPECT_EQ(plan.layers[0].detail, 1.0);
+}
+
 }  // namespace
 }  // namespace terrella::test

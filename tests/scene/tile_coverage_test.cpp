@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 #include <unordered_set>
 
 #include "patch_test_support.h"
 #include "surface/patch_mesh.h"
+#include "tiles/tile_range.h"
 
 namespace terrella::test {
 namespace {
@@ -400,6 +403,33 @@ TEST(RootTiles, AreTheWholeCoarsestLevelWithinTheBounds) {
   EXPECT_EQ(root_tiles({.min_level = 2, .max_level = 5}).size(), 32U);
   for (const TileId& id : root_tiles(europe(3))) EXPECT_TRUE(exists(europe(3), id));
   EXPECT_EQ(root_tiles(europe(0)).size(), 2U);
+}
+
+TEST(RootTiles, OfAReducedGridAreThoseThatExist) {
+  TileGrid grid = europe(4);
+  grid.reduced = true;
+  std::set<TileId> expected;
+  for (std::int64_t y = 0; y < rows(grid, grid.min_level); ++y) {
+    for (std::int64_t x = 0; x < columns(grid, grid.min_level); ++x) {
+      if (exists(grid, {grid.min_level, x, y})) expected.insert(reduced_tile(grid, {grid.min_level, x, y}));
+    }
+  }
+  const std::vector<TileId> roots = root_tiles(grid);
+  EXPECT_EQ(roots.size(), expected.size());
+  EXPECT_EQ(std::set<TileId>(roots.begin(), roots.end()), expected);
+}
+
+// A planet has 10^12 tiles of level 20: they cannot be looked through.
+TEST(RootTiles, OfACityAreFoundAtADeepLevel) {
+  TileGrid city = europe(20);
+  city.max_level = 20;
+  city.bounds = {Angle::degrees(8.5), Angle::degrees(47.3), Angle::degrees(8.51), Angle::degrees(47.31)};
+  const auto across = static_cast<std::size_t>(std::ceil(0.01 / tile_span_deg(city, 20)));
+  EXPECT_GE(root_tiles(city).size(), across * across);
+  EXPECT_LE(root_tiles(city).size(), (across + 1) * (across + 1));
+  EXPECT_TRUE(check_root_tiles(city));
+  city.bounds = {};
+  EXPECT_FALSE(check_root_tiles(city));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/sets/tile_range.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_range.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

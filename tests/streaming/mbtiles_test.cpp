@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/sets/tile_range.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

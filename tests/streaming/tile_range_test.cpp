@@ -1,4 +1,4 @@
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 #include <gtest/gtest.h>
 

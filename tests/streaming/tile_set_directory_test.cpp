@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "streaming/sets/open_tile_set.h"
-#include "streaming/sets/tile_range.h"
 #include "streaming/sets/tileset_json.h"
 #include "streaming_test_support.h"
+#include "tiles/tile_range.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

@@ -73,11 +73,18 @@ void plan_tiles(const View& view, const FrameSnapshot& snapshot, const PatchSele
   }
 }
 
-// True if a layer's view wants more tiles than there is room for.
+bool is_coarsest(const LayerSnapshot& layer, const LayerPlan& plan) {
+  return std::ranges::all_of(plan.patches, [coarsest = layer.tree->grid().min_level](const SelectedPatch& patch) {
+    return patch.tile_level == coarsest;
+  });
+}
+
+// True if a layer's view wants more tiles than there is room for, and there are coarser ones.
 bool coarsen(const FrameSnapshot& snapshot, FramePlan& plan) {
   bool coarser = false;
   for (std::size_t k = 0; k < plan.layers.size(); ++k) {
-    if (plan.layers[k].coverage.tiles <= snapshot.layers[k].room) continue;
+    const bool fits = plan.layers[k].coverage.tiles <= snapshot.layers[k].room;
+    if (fits || is_coarsest(snapshot.layers[k], plan.layers[k])) continue;
     plan.layers[k].detail *= 0.75;
     coarser = true;
   }

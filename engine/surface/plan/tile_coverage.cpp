@@ -263,18 +263,6 @@ class Coverer {
 
 }  // namespace
 
-std::vector<TileId> root_tiles(const TileGrid& grid) {
-  std::vector<TileId> tiles;
-  for (std::int64_t y = 0; y < rows(grid, grid.min_level); ++y) {
-    const std::int64_t step = std::int64_t{1} << squeeze_of_row(grid, grid.min_level, y);
-    for (std::int64_t x = 0; x < columns(grid, grid.min_level); x += step) {
-      const TileId id = reduced_tile(grid, {grid.min_level, x, y});
-      if (exists(grid, id)) tiles.push_back(id);
-    }
-  }
-  return tiles;
-}
-
 void cover_with_tiles(const CoverInput& input, TileCoverage& out) {
   out.draws.clear();
   out.cells.clear();

@@ -83,7 +83,4 @@ struct CoverInput {
 /// longer than a pixel. thread: any
 void cover_with_tiles(const CoverInput& input, TileCoverage& out);
 
-/// The tiles of the coarsest level: always wanted, never evicted (engine/DESIGN.md, 10).
-[[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);
-
 }  // namespace terrella

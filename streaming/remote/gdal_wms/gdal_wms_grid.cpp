@@ -12,8 +12,8 @@
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/gpkg_schema.h"
-#include "streaming/sets/tile_range.h"
 #include "tiles/grid_ranges.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

@@ -11,7 +11,7 @@
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/sets/gpkg_schema.h"
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

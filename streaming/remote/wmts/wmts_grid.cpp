@@ -9,8 +9,8 @@
 #include "geo/body.h"
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
-#include "streaming/sets/tile_range.h"
 #include "tiles/grid_ranges.h"
+#include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {

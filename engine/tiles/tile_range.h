@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/result.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
@@ -25,5 +26,13 @@ struct TilePlaces {
 
 /// Calls `call` for each tile that exists(), row by row from the north, until `call` returns false. thread: any
 void for_each_place(const TileGrid& grid, int level, const std::function<bool(const TileId&)>& call);
+
+/// The tiles of the coarsest level, reduced_tile() for each: always wanted, never evicted (engine/DESIGN.md, 10).
+/// thread: any
+[[nodiscard]] std::vector<TileId> root_tiles(const TileGrid& grid);
+/// Most root tiles of a grid that is drawn: they stay in memory.
+inline constexpr std::int64_t kMostRootTiles = 16'384;
+/// Error if the grid has more root tiles. thread: any
+[[nodiscard]] Status check_root_tiles(const TileGrid& grid);
 
 }  // namespace terrella

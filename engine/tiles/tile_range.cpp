@@ -1,4 +1,4 @@
-#include "streaming/sets/tile_range.h"
+#include "tiles/tile_range.h"
 
 #include <algorithm>
 #include <array>
@@ -78,6 +78,25 @@ std::int64_t count_places(const TileGrid& grid, int level) {
   std::int64_t columns = 0;
   for (const TileSpan& span : places.columns) columns += span.last - span.first + 1;
   return columns * std::max<std::int64_t>(0, places.rows.last - places.rows.first + 1);
+}
+
+std::vector<TileId> root_tiles(const TileGrid& grid) {
+  std::vector<TileId> tiles;
+  for_each_place(grid, grid.min_level, [&](const TileId& full) {
+    const TileId id = reduced_tile(grid, full);
+    if (tiles.empty() || tiles.back() != id) tiles.push_back(id);
+    return true;
+  });
+  return tiles;
+}
+
+Status check_root_tiles(const TileGrid& grid) {
+  const std::int64_t roots = count_places(grid, grid.min_level);
+  if (roots <= kMostRootTiles) return Done{};
+  return Error{
+      fmt::format("its coarsest level, {}, has {} tiles within its bounds, more than the {} that can stay in memory; "
+                  "add coarser levels, or narrow the bounds",
+                  grid.min_level, roots, kMostRootTiles)};
 }
 
 }  // namespace terrella
