@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/open_scene/options/place_options.h"
+#include "apps/process/option_names.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
 #include "streaming/georeference/figure.h"
@@ -56,18 +57,18 @@ std::string words_text(const PlaceWords& words) {
 
 /// Tests with the cutter whether the picture is accepted, on the body that the picture states.
 void try_out(PictureFacts& facts, const RemotePicture* tiff) {
-  const std::string body = facts.crs ? body_option(*facts.crs) : std::string();
   CutOptions cut;
   cut.images = {facts.file.path};
-  cut.body = body.substr(body.empty() ? 0 : std::string_view(" --body ").size());
+  if (facts.crs) cut.body = stated_body(*facts.crs);
   set_place(cut, facts.words);
   if (facts.is_numbers) cut.numbers = CutNumbers{};
   if (tiff != nullptr) cut.raster = cut_raster(*tiff);
+  const std::string body = cut.body.empty() ? std::string() : " --body " + cut.body;
   const std::string name = shell_word(facts.file.path.string()) + body + words_text(facts.words);
   facts.command = fmt::format("terrella view {}", name);
   Status can = check_pictures(cut);
   if (can && tiff != nullptr) can = check_shows_at_once(*tiff);
-  if (!can) facts.refused = can.error().message;
+  if (!can) facts.refused = with_option_names(can.error().message);
   if (auto place = find_place(cut, facts.file)) facts.place = *std::move(place);
 }
 
@@ -110,7 +111,7 @@ Result<PictureFacts> place(Result<PictureFacts> facts, const PlaceWords& words) 
     if (const auto crs = Crs::open(crs_text)) facts->crs = crs->facts();
   }
   if (const auto placed = place_picture(facts->file, words)) {
-    facts->remarks = placed->remarks;
+    for (const std::string& remark : placed->remarks) facts->remarks.push_back(with_option_names(remark));
     if (const auto& at = placed->placement) {
       facts->bounds_deg =
           CrsBounds{at->west_deg, at->north_deg - static_cast<double>(facts->file.height_px) * at->pixel_height_deg,

@@ -103,9 +103,7 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
   auto placed = place_picture(picture, wish.direct.place);
   if (!placed) return placed.error();
   DirectOptions direct = wish.direct;
-  // "--body mars", after a space
-  if (wish.any_body) direct.body = placed->crs ? std::string(body_option(*placed->crs)) : std::string();
-  if (const std::size_t name = direct.body.rfind(' '); name != std::string::npos) direct.body.erase(0, name + 1);
+  if (wish.any_body) direct.body = placed->crs ? stated_body(*placed->crs) : std::string();
   const bool placeless = !placed->projected;
   auto place = place_raster(*std::move(placed), picture, direct);
   if (!place) return place.error();

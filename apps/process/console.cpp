@@ -4,8 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "apps/process/option_names.h"
 #include "objects/label_layout.h"
-#include "streaming/url.h"
 
 namespace terrella {
 namespace {
@@ -65,7 +65,7 @@ void write_result(std::string_view text) {
 }
 
 void write_message(std::string_view text) {
-  std::string shown = printable(redact_addresses(text));
+  std::string shown = printable(shown_message(text));
   if (CapturedConsole::active()) return g_sink.message(shown);
   for (std::size_t end = shown.find('\n'); end < shown.size() - 1; end = shown.find('\n', end + 1)) {
     shown.insert(end + 1, "  ");

@@ -17,6 +17,7 @@
 
 #include "apps/open_scene/scene_overlays.h"
 #include "apps/process/console.h"
+#include "apps/process/option_names.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/command_line.h"
 #include "apps/program/commands.h"
@@ -140,7 +141,7 @@ class PythonGlobe {
       for (const py::handle part : value) text += (text.empty() ? "" : ",") + std::string(py::str(part));
     }
     const Result<Camera> parsed = parse_camera(text);
-    if (!parsed) throw py::value_error(redact_addresses("camera: " + parsed.error().message));
+    if (!parsed) throw py::value_error(shown_message("camera: " + parsed.error().message));
     camera_ = *parsed;
   }
   [[nodiscard]] Viewport size() const { return command_.scene.size; }

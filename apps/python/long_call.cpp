@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/process/console.h"
+#include "apps/process/option_names.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
 #include "streaming/url.h"
@@ -66,7 +67,7 @@ void conclude(const Said& said) {
 }
 
 void raise_error(const std::string& message) {
-  PyErr_SetString(g_error, redact_addresses(message).c_str());
+  PyErr_SetString(g_error, shown_message(message).c_str());
   throw py::error_already_set();
 }
 

@@ -45,7 +45,7 @@ Status check_mercator(const TileGrid& grid, const std::string& where) {
   if (grid.projection != Projection::web_mercator) return Done{};
   const double halvings = std::log2(360.0 / grid.root_span_deg);
   if (halvings < 0.0 || halvings != std::round(halvings)) {
-    return field_error(where, "root span (--root-span, in JSON root_span_deg)", grid.root_span_deg,
+    return field_error(where, "root span (‹root_span_deg›, in JSON root_span_deg)", grid.root_span_deg,
                        "360 or a half, a quarter … of it in Web Mercator");
   }
   if (grid.tile_px > kMaxMercatorTilePx) {
@@ -81,7 +81,7 @@ Status check_grid(const TileGrid& grid, const std::string& where) {
                            .result();
   if (!known) return Error{where + ": " + known.error().message};
   if (!(grid.root_span_deg >= kMinRootSpanDeg && grid.root_span_deg <= kMaxRootSpanDeg)) {
-    return field_error(where, "root span (--root-span, in JSON root_span_deg)", grid.root_span_deg,
+    return field_error(where, "root span (‹root_span_deg›, in JSON root_span_deg)", grid.root_span_deg,
                        fmt::format("in [{}, {}] degrees", kMinRootSpanDeg, kMaxRootSpanDeg));
   }
   if (grid.tile_px < kMinTilePx || grid.tile_px > kMaxTilePx) {

@@ -210,11 +210,11 @@ Result<CutSummary> cut(const CutOptions& asked) {
   try {
     return run(options);
   } catch (const std::bad_alloc&) {
-    return Error{fmt::format("{}: not enough memory to cut it; give fewer --jobs or a smaller --tile-size",
+    return Error{fmt::format("{}: not enough memory to cut it; give fewer ‹jobs› or a smaller ‹tile_px›",
                              options.images.front().string())};
   } catch (const std::system_error& error) {
     return Error{
-        fmt::format("{}: cannot be cut: {}; give fewer --jobs", options.images.front().string(), error.what())};
+        fmt::format("{}: cannot be cut: {}; give fewer ‹jobs›", options.images.front().string(), error.what())};
   }
 }
 

@@ -72,7 +72,7 @@ Result<int> finest_level(double pixel_deg, int tile_px, const std::string& name)
   int level = 0;
   while (std::ldexp(pixel_deg * tile_px, level) < 180.0 * kRounding) ++level;
   if (level <= kMaxTileLevel) return level;
-  return Error{fmt::format("{}: pixels of {:.3g} degrees need {} levels, more than {}; give a larger --tile-size", name,
+  return Error{fmt::format("{}: pixels of {:.3g} degrees need {} levels, more than {}; give a larger ‹tile_px›", name,
                            pixel_deg, level + 1, kMaxTileLevel + 1)};
 }
 
@@ -105,7 +105,7 @@ Result<CutPlan> plan_planet(const PictureInfo& picture, const CutOptions& option
   if (std::abs(width - 2 * picture.height_px) > 1) {
     return Error{fmt::format(
         "{0}: {1}x{2} pixels are not 2:1, so it is not a picture of a whole planet. Resize it to {3}x{4} if it "
-        "is one; if it shows a part, say which with --bounds W,S,E,N",
+        "is one; if it shows a part, say which with ‹bounds› W,S,E,N",
         name_of(options), width, picture.height_px, width + width % 2, (width + width % 2) / 2)};
   }
   CutPlan plan;
@@ -188,7 +188,7 @@ Status check_crossing(CutPlan& plan, const std::string& name) {
   if (root_column(plan.finest.x1 - plan.turn_px - 1) < root_column(plan.finest.x0)) return Done{};
   return Error{
       fmt::format("{}: it crosses 180 degrees and reaches into the same tile from both sides; give a smaller "
-                  "--tile-size, or cut it as two",
+                  "‹tile_px›, or cut it as two",
                   name)};
 }
 
@@ -216,7 +216,7 @@ Result<CutPlan> plan_region(const PictureInfo& picture, const CutOptions& option
   if (beyond_px < -kAlignment_px || beyond_px > most_px) {
     return Error{
         fmt::format("{}: {}x{} pixels over these bounds are not square ({:.9g} degrees wide, {:.9g} high); check "
-                    "--bounds, or resample the picture",
+                    "‹bounds›, or resample the picture",
                     name, picture.width_px, picture.height_px, pixel_deg, (b.north - b.south) / height)};
   }
   CutPlan plan;

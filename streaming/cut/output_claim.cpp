@@ -38,7 +38,7 @@ Error stays(const OutputClaim& claim, const std::string& what) {
 Status check_mark(const OutputClaim& claim, const std::string& mark) {
   if (mark == claim.mark || claim.force) return Done{};
   return Error{
-      fmt::format("{}: is a tile set that was cut from other pictures; give --force to "
+      fmt::format("{}: is a tile set that was cut from other pictures; give ‹force› to "
                   "replace it, or name another output",
                   claim.output.string())};
 }

@@ -47,28 +47,25 @@ bool are_two_bodies(const Body& one, const Body& other) {
   return differ(one.ellipsoid.a_m(), other.ellipsoid.a_m()) || (!spheres && differ(polar_m(one), polar_m(other)));
 }
 
-std::string body_option(const CrsFacts& crs) {
-  return is_other_body(crs, earth()) ? " --body " + body_name(crs) : std::string();
-}
+std::string stated_body(const CrsFacts& crs) { return is_other_body(crs, earth()) ? body_name(crs) : std::string(); }
 
 Result<LatitudeKind> check_figure(PlacedPicture& placed, const Body& body, std::optional<LatitudeKind> asked) {
   if (!placed.crs) return asked.value_or(LatitudeKind::graphic);
   const CrsFacts& crs = *placed.crs;
   if (is_other_body(crs, body)) {
-    const std::string option = body_option(crs);
+    const std::string right = stated_body(crs);
     return Error{
         fmt::format("{}, on a body with radii of {:.9g} and {:.9g} m, and {} has {:.9g} and {:.9g}; say which "
-                    "it is: {}",
+                    "it is: ‹body› {}",
                     placed.claim, crs.a_m, crs.b_m, body.name, body.ellipsoid.a_m(),
-                    body.ellipsoid.a_m() * (1.0 - body.ellipsoid.f()),
-                    option.empty() ? std::string("--body earth") : option.substr(1))};
+                    body.ellipsoid.a_m() * (1.0 - body.ellipsoid.f()), right.empty() ? "earth" : right)};
   }
   const LatitudeKind stated = latitude_of(crs, body);
   // A sphere does not tell which latitudes it means on the Earth.
   const bool tells = crs.a_m != crs.b_m || stated == LatitudeKind::centric;
   if (asked && *asked != stated && tells && body.ellipsoid.f() > 0.0) {
     const bool centric = stated == LatitudeKind::centric;
-    placed.remarks.push_back(fmt::format("{}, with {} latitudes; --latitude {} is used instead", placed.claim,
+    placed.remarks.push_back(fmt::format("{}, with {} latitudes; ‹latitude› {} is used instead", placed.claim,
                                          centric ? "planetocentric" : "planetographic",
                                          centric ? "graphic" : "centric"));
   }

@@ -27,7 +27,7 @@ namespace terrella {
 /// thread: any
 [[nodiscard]] bool are_two_bodies(const Body& one, const Body& other);
 
-/// Option for the body of a picture in a coordinate system: " --body moon"; empty for the Earth, the default.
-[[nodiscard]] std::string body_option(const CrsFacts& crs);
+/// Body of a coordinate system: the name of a preset, or "A,F"; empty for the Earth, the default.
+[[nodiscard]] std::string stated_body(const CrsFacts& crs);
 
 }  // namespace terrella

@@ -52,7 +52,7 @@ Status add_claim(Georeference& said, const SideClaim& claim, const PictureFile& 
 
 Error cannot_believe(const PictureFile& picture, const std::string& why) {
   return Error{
-      fmt::format("{}: {}, so where it lies is not known; say it with --crs CRS and --bounds W,S,E,N, or write it into "
+      fmt::format("{}: {}, so where it lies is not known; say it with ‹crs› CRS and ‹bounds› W,S,E,N, or write it into "
                   "a copy: {}",
                   picture.path.string(), why, assign_command(picture))};
 }

@@ -92,7 +92,7 @@ bool is_plausible(const PictureFile& picture, const Placement& place) {
 Error implausible(const PictureFile& picture, const std::string& claim, const Placement& place) {
   return Error{fmt::format(
       "{} put it at longitudes {:.9g} to {:.9g} and latitudes {:.9g} to {:.9g}, which is more than a planet has; say "
-      "what is right with --crs CRS or --bounds W,S,E,N, or write it into a copy: {}",
+      "what is right with ‹crs› CRS or ‹bounds› W,S,E,N, or write it into a copy: {}",
       claim, place.west_deg, place.west_deg + static_cast<double>(picture.width_px) * place.pixel_width_deg,
       place.north_deg - static_cast<double>(picture.height_px) * place.pixel_height_deg, place.north_deg,
       assign_command(picture))};
@@ -114,8 +114,8 @@ Result<Placement> place_without_crs(const PictureFile& picture, const Georeferen
   }
   return Error{fmt::format(
       "{} put its corner at ({:.9g}, {:.9g}) with pixels of {:.6g} by {:.6g}{}, which are no degrees from the "
-      "north-west, and name no coordinate system; say which with --crs and the code that the picture's source gives, "
-      "as --crs EPSG:32633, or write it into a copy: {}",
+      "north-west, and name no coordinate system; say which with ‹crs› and the code that the picture's source gives, "
+      "as ‹crs› EPSG:32633, or write it into a copy: {}",
       claim_text(picture, said, {}), t.x0, t.y0, std::hypot(t.x_per_column, t.y_per_column),
       std::hypot(t.x_per_row, t.y_per_row), t.is_turned() ? ", turned" : "", name_system_command(picture))};
 }
@@ -138,7 +138,7 @@ struct Case {
 /// Statement of the user or the picture about the system, as the beginning of a message.
 std::string case_text(const Case& of, const CrsFacts& facts) {
   if (of.words.crs.empty()) return claim_text(of.picture, of.said, facts);
-  return fmt::format("{}: --crs says that it is {} ({})", of.picture.path.string(),
+  return fmt::format("{}: ‹crs› says that it is {} ({})", of.picture.path.string(),
                      facts.geographic ? "geographic" : "projected", crs_text(facts, {}));
 }
 
@@ -156,7 +156,7 @@ Status place_transform(Case& of, const Crs& crs) {
   const bool fits = !crs.facts().geographic || are_degrees(*of.said.transform, of.picture);  // even if turned
   if (fits && warp_extent(of.picture, of.said, crs)) return Done{};
   return Error{fmt::format(
-      "{}, and {} by that; say what is right with --crs CRS or --bounds W,S,E,N, or write it into a copy: {}",
+      "{}, and {} by that; say what is right with ‹crs› CRS or ‹bounds› W,S,E,N, or write it into a copy: {}",
       case_text(of, crs.facts()),
       fits ? "no pixel of it has a place on the planet" : "its corners are at more than a planet has",
       assign_command(of.picture))};
@@ -186,7 +186,7 @@ Status place_in(Case& of, const Crs& crs) {
   if (of.said.transform) return place_transform(of, crs);
   if (crs.facts().geographic) return Done{};
   return Error{
-      fmt::format("{}, and not where; say it with --bounds W,S,E,N in its units and --crs, or write it into a "
+      fmt::format("{}, and not where; say it with ‹bounds› W,S,E,N in its units and ‹crs›, or write it into a "
                   "copy: {}",
                   case_text(of, crs.facts()), assign_command(of.picture))};
 }
@@ -214,7 +214,7 @@ void remark_on(Case& of, const Crs* crs) {
     const auto stated = Crs::open(said->crs);
     if (!stated || !stated->is_same_as(*crs)) {
       of.placed.remarks.push_back(
-          fmt::format("{}; --crs ({}) is used instead",
+          fmt::format("{}; ‹crs› ({}) is used instead",
                       stated ? claim_text(of.picture, *said, stated->facts())
                              : fmt::format("{}: its {} name a system that is not known", name, said->source),
                       crs_text(crs->facts(), {})));
@@ -222,7 +222,7 @@ void remark_on(Case& of, const Crs* crs) {
   }
   if (of.words.say_place() && (said->transform || said->has_control_points)) {
     of.placed.remarks.push_back(fmt::format("{}: its {} state a place; {} is used instead", name, said->source,
-                                            of.words.bounds ? "--bounds" : "--west"));
+                                            of.words.bounds ? "‹bounds›" : "‹west_deg›"));
   }
 }
 
@@ -254,8 +254,8 @@ Result<Placement> place_of_words(const PictureFile& picture, const PlaceWords& w
   if (words.west_deg) {
     if (std::abs(picture.width_px - 2 * picture.height_px) > 1) {
       return Error{
-          fmt::format("{}: {}x{} pixels are not 2:1, and --west is for a picture of a whole planet; say where "
-                      "it lies with --bounds W,S,E,N",
+          fmt::format("{}: {}x{} pixels are not 2:1, and ‹west_deg› is for a picture of a whole planet; say where "
+                      "it lies with ‹bounds› W,S,E,N",
                       picture.path.string(), picture.width_px, picture.height_px)};
     }
     at = {*words.west_deg, -90.0, *words.west_deg + 360.0, 90.0};
@@ -280,7 +280,7 @@ Result<PlacedPicture> place_picture(const PictureFile& picture, const PlaceWords
   if (!crs) {
     if (!words.crs.empty()) {
       return Error{
-          fmt::format("{}: --crs {}: this is no coordinate system that PROJ knows; give a code as EPSG:32633, "
+          fmt::format("{}: ‹crs› {}: this is no coordinate system that PROJ knows; give a code as EPSG:32633, "
                       "a PROJ string or WKT",
                       picture.path.string(), words.crs)};
     }
@@ -289,7 +289,7 @@ Result<PlacedPicture> place_picture(const PictureFile& picture, const PlaceWords
       if (Status placed = place_by_words(of, nullptr); !placed) return placed.error();
       return std::move(of.placed);
     }
-    return Error{fmt::format("{}: its {}: {}; say what is right with --crs CRS, or write it into a copy: {}",
+    return Error{fmt::format("{}: its {}: {}; say what is right with ‹crs› CRS, or write it into a copy: {}",
                              picture.path.string(), of.said.source, crs.error().message, assign_command(picture))};
   }
   remark_on(of, &*crs);

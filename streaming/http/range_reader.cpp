@@ -162,7 +162,7 @@ Status RangeReader::fetch_blocks(Lock& lock, std::uint64_t first, std::uint64_t 
 /// Gives up the lock while it waits.
 Result<std::vector<std::byte>> RangeReader::request(Lock& lock, const ByteRange& range) {
   if (offline_) {
-    return Error{fmt::format("{}: its bytes from {} on are not in the cache; open it once without --offline",
+    return Error{fmt::format("{}: its bytes from {} on are not in the cache; open it once without ‹offline›",
                              url_.redacted(), range.offset)};
   }
   const FileVersion version = version_;

@@ -149,7 +149,7 @@ Status choose_pixels(const std::string& where, MosaicPixels pixels, MosaicIndex&
     const auto numbers = std::ranges::find_if(index.files, [](const PlacedFile& file) { return file.file.is_numbers; });
     if (numbers == index.files.end()) return Done{};
     return Error{
-        fmt::format("{}: {} contains numbers, and each file would get colours of its own; give --elevation for "
+        fmt::format("{}: {} contains numbers, and each file would get colours of its own; give ‹elevation› for "
                     "heights, or make pictures of 8 bits with one scale (gdal_translate -ot Byte -scale)",
                     where, numbers->file.path.string())};
   }

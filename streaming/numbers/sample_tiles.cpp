@@ -107,7 +107,7 @@ Result<NumberStatistics> sample_tiles(TileSource& tiles) {
   if (made.known > 0) return made;
   if (!why.empty()) return Error{fmt::format("{}; its numbers have no range to show", why)};
   return Error{fmt::format(
-      "{}: none of the sampled pixels has data, so there is no range to show; give --stretch MIN,MAX", info.name)};
+      "{}: none of the sampled pixels has data, so there is no range to show; give ‹stretch› MIN,MAX", info.name)};
 }
 
 }  // namespace terrella

@@ -19,7 +19,7 @@ Error no_band(const RasterFile& file, std::size_t band) {
 
 Error palette_numbers(const RasterFile& file) {
   return Error{fmt::format(
-      "{}: its numbers are indices of a palette, not values; leave --band, --bands, --colormap and --stretch out, or "
+      "{}: its numbers are indices of a palette, not values; leave ‹band›, ‹bands›, ‹colormap› and ‹stretch› out, or "
       "expand it (gdal_translate -expand rgb)",
       file.name())};
 }

@@ -80,7 +80,7 @@ class Checking {
     if (north && south) return mercator();
     if (!north && !south) return std::nullopt;
     return Fault{Verdict::one_root,
-                 "there is one root tile, 360° wide, where the grid says two of 180°; say --root-span 360"};
+                 "there is one root tile, 360° wide, where the grid says two of 180°; say ‹root_span_deg› 360"};
   }
 
   std::optional<Fault> check_one_root() {
@@ -88,7 +88,7 @@ class Checking {
       return Fault{
           Verdict::two_roots,
           "there are tiles east of the last column: the set has two root tiles of 180°, where the grid says one "
-          "of 360°; say --root-span 180"};
+          "of 360°; say ‹root_span_deg› 180"};
     }
     if (has_picture({1, 0, 0}) && (has_picture({1, 0, 1}) || has_picture({1, 1, 1}))) return mercator();
     return std::nullopt;
@@ -100,20 +100,20 @@ class Checking {
     if (fetch({1, 2, 0})) {
       return Fault{Verdict::two_roots,
                    "there are tiles east of the square of Web Mercator: the set has two root tiles of 180° and is "
-                   "geodetic; leave out --projection web-mercator"};
+                   "geodetic; leave out ‹projection› web-mercator"};
     }
     const bool north = has_picture({1, 0, 0}) || has_picture({1, 1, 0});
     if (!north || fetch({1, 0, 1}) || fetch({1, 1, 1})) return std::nullopt;
     return Fault{
         Verdict::one_root,
         "there are no tiles in the southern half of the square of Web Mercator: the set is most likely geodetic "
-        "with one root tile; say --root-span 360 instead of --projection web-mercator"};
+        "with one root tile; say ‹root_span_deg› 360 instead of ‹projection› web-mercator"};
   }
 
   static Fault mercator() {
     return {Verdict::web_mercator,
             "one root tile shows the whole planet and four tiles lie under it: the set is most likely in Web Mercator; "
-            "say --projection web-mercator (\"projection\": \"web-mercator\" in a description)"};
+            "say ‹projection› web-mercator (\"projection\": \"web-mercator\" in a description)"};
   }
 
   /// The first tiles that have two tiles under each half.

@@ -15,7 +15,7 @@ Status fit_archive(TileGrid& grid, const RemoteOptions& options) {
   if (Status left = narrow_levels(grid, options); !left) return left;
   if (Status same = check_tile_px(grid, options); !same) return same;
   if (options.projection && *options.projection != Projection::web_mercator) {
-    return Error{"PMTiles are in Web Mercator, and --projection says otherwise; leave that out"};
+    return Error{"PMTiles are in Web Mercator, and ‹projection› says otherwise; leave that out"};
   }
   return Done{};
 }

@@ -151,7 +151,7 @@ Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& opt
   if (Status checked = check_options(options, where); !checked) return checked.error();
   if (Status checked = check_url_template(set, files, where); !checked) return checked.error();
   if (!options.max_level) {
-    return Error{where + ": it is not said how many levels it has; say --levels 0-N (max_level in a description)"};
+    return Error{where + ": it is not said how many levels it has; say ‹levels› 0-N (max_level in a description)"};
   }
   TileGrid& grid = set.info.grid;
   grid.projection = options.projection.value_or(grid.projection);

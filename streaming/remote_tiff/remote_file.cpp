@@ -134,7 +134,7 @@ Result<std::shared_ptr<RemoteFile>> RemoteFile::open(const RemoteFileOptions& op
     return std::shared_ptr<RemoteFile>(new RemoteFile(options, std::move(reader), stopped, (*held)->ranges));
   }
   if (options.offline) {
-    return Error{fmt::format("{}: nothing of it is in the cache; look at it or preload it once without --offline",
+    return Error{fmt::format("{}: nothing of it is in the cache; look at it or preload it once without ‹offline›",
                              options.url.redacted())};
   }
   auto ranges = ask_version(options, *std::move(held), *reader);

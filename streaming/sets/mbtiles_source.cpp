@@ -205,7 +205,7 @@ Status check_mercator_tiles(const std::optional<TileRange>& finest, const TileGr
   if (!outside && !south_alone) return Done{};
   return Error{fmt::format(
       "{}: it does not say that it is geodetic, so it should be in Web Mercator, but level {} has columns {} to {} and "
-      "rows {} to {} of {}, which does not go with its bounds. If it is in EPSG:4326, say --projection "
+      "rows {} to {} of {}, which does not go with its bounds. If it is in EPSG:4326, say ‹projection› "
       "equirectangular, "
       "or write it into its metadata: INSERT INTO metadata VALUES ('profile', 'geodetic')",
       where, grid.max_level, finest->first_column, finest->last_column, finest->first_row, finest->last_row, side)};

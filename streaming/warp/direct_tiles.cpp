@@ -42,7 +42,7 @@ Result<std::optional<RasterPlace>> place_raster(PlacedPicture placed, const Pict
 std::string taken_for_planet(const std::string& name) {
   return name +
          ": nothing in it says where it lies, so it is taken for a whole planet from -180 degrees; files beside "
-         "it on the server are not read; --bounds W,S,E,N says another place";
+         "it on the server are not read; ‹bounds› W,S,E,N says another place";
 }
 
 std::optional<std::pair<RasterLevel, RasterLevel>> far_levels(const std::vector<RasterLevel>& levels) {

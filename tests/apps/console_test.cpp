@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/process/option_names.h"
+
 namespace terrella {
 namespace {
 
@@ -27,6 +29,13 @@ TEST(Printable, ReplacesWhatIsNotUtf8) {
   EXPECT_EQ(printable("\xc0\x9b[2J"), "\uFFFD[2J");
   EXPECT_EQ(printable("\xe0\x80\x9bx"), "\uFFFDx");
   EXPECT_EQ(printable("\xe2\x80"), "\uFFFD\uFFFD");
+}
+
+TEST(OptionNames, StandForTheSettingsOfLibraries) {
+  EXPECT_EQ(with_option_names("in.tif: say ‹crs› CRS and ‹tile_px›"), "in.tif: say --crs CRS and --tile-size");
+  for (const char* text : {"", "a ‹crs", "‹unknown› and ›", "‹‹", "--crs"}) EXPECT_EQ(with_option_names(text), text);
+  EXPECT_EQ(with_option_names("‹ ‹crs›"), "‹ --crs");
+  EXPECT_EQ(shown_message("http://me:word@host/: say ‹layer›").find("word"), std::string::npos);
 }
 
 }  // namespace

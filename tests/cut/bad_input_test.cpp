@@ -48,7 +48,7 @@ TEST(BadInputTest, NoFileAndNoPicture) {
 TEST(BadInputTest, NotTwoToOneSaysWhatToDo) {
   const ScratchFolder folder;
   write_png(folder / "square.png", noise(64, 64));
-  expect_picture_refused(folder, folder / "square.png", {"64x64", "--bounds"});
+  expect_picture_refused(folder, folder / "square.png", {"64x64", "‹bounds›"});
 }
 
 TEST(BadInputTest, TruncatedPicturesNameTheRow) {

@@ -127,7 +127,7 @@ TEST_F(Mosaic, WorldFilesThatDoNotFitSayWhich) {
   refuse({a, write_part("gap.png", 66, 0, 62, 64, 2.8125)}, {"gap.png (picture 2)", "2 pixels east"});
   refuse({a, write_part("over.png", 60, 0, 68, 64, 2.8125)}, {"over.png (picture 2)", "-4 pixels east"});
   refuse({a, write_part("coarse.png", 64, 0, 64, 64, 2.0)}, {"coarse.png (picture 2)", "pixels"});
-  refuse({a, write_part("nowhere.png", 64, 0, 64, 64)}, {"nowhere.png (picture 2)", "--mosaic"});
+  refuse({a, write_part("nowhere.png", 64, 0, 64, 64)}, {"nowhere.png (picture 2)", "‹mosaic›"});
 }
 
 TEST_F(Mosaic, GeoTiffTagsPlaceOnePictureToo) {

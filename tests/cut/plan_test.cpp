@@ -51,7 +51,7 @@ TEST(CutPlanTest, OddPlanetsMayHaveEitherHeight) {
 TEST(CutPlanTest, NotTwoToOneSaysWhatToDo) {
   const auto made = plan(300, 300);
   ASSERT_FALSE(made);
-  for (const char* part : {"picture.jpg", "300x300", "2:1", "--bounds W,S,E,N"}) {
+  for (const char* part : {"picture.jpg", "300x300", "2:1", "‹bounds› W,S,E,N"}) {
     EXPECT_NE(made.error().message.find(part), std::string::npos) << made.error().message;
   }
 }

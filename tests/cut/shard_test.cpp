@@ -73,7 +73,7 @@ TEST_F(Shards, TiffsAndMosaicsJumpToTheirRows) {
 }
 
 TEST_F(Shards, MissingOnesAreNamed) {
-  expect_refused(options({}, true), {"out.gpkg", "--shard"});
+  expect_refused(options({}, true), {"out.gpkg", "‹shard›"});
   ASSERT_TRUE(must_cut(options(CutShard{2, 4})));
   expect_refused(options({}, true), {"1, 3, 4 of 4"});
   EXPECT_FALSE(fs::exists(folder_ / "out.gpkg"));

@@ -39,7 +39,7 @@ TEST(FigureTest, TheUsersLatitudeWinsWithARemark) {
   PlacedPicture sphere = on(3396190, 3396190);
   EXPECT_EQ(*check_figure(sphere, body("mars"), LatitudeKind::graphic), LatitudeKind::graphic);
   ASSERT_EQ(sphere.remarks.size(), 1U);
-  EXPECT_NE(sphere.remarks[0].find("--latitude graphic is used instead"), std::string::npos) << sphere.remarks[0];
+  EXPECT_NE(sphere.remarks[0].find("‹latitude› graphic is used instead"), std::string::npos) << sphere.remarks[0];
   PlacedPicture agrees = on(3396190, 3396190);
   EXPECT_EQ(*check_figure(agrees, body("mars"), LatitudeKind::centric), LatitudeKind::centric);
   EXPECT_TRUE(agrees.remarks.empty());
@@ -51,9 +51,9 @@ TEST(FigureTest, AnotherBodyIsRefusedByBothNames) {
     double a_m, b_m;
     const char* cure;
   };
-  for (const Row& row : {Row{"earth", 1737400, 1737400, "--body moon"}, Row{"moon", 3396190, 3376200, "--body mars"},
-                         Row{"mars", 6378137, 6356752, "--body earth"}, Row{"moon", 1560800, 1560800, "--body "},
-                         Row{"289000,0", 289000, 229000, "--body 289000,0.2076"}}) {
+  for (const Row& row : {Row{"earth", 1737400, 1737400, "‹body› moon"}, Row{"moon", 3396190, 3376200, "‹body› mars"},
+                         Row{"mars", 6378137, 6356752, "‹body› earth"}, Row{"moon", 1560800, 1560800, "‹body› "},
+                         Row{"289000,0", 289000, 229000, "‹body› 289000,0.2076"}}) {
     PlacedPicture placed = on(row.a_m, row.b_m);
     const auto latitude = check_figure(placed, body(row.body), {});
     ASSERT_FALSE(latitude) << row.body;

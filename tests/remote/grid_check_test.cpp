@@ -117,7 +117,7 @@ TEST(GridCheck, LooksWhetherWhatIsSaidToBeWebMercatorIs) {
   EXPECT_EQ(check_square({.mercator = true, .flipped = true}).verdict, Verdict::flipped_rows);
   const GridCheck two = check_square({.root_span_deg = 180.0});
   EXPECT_EQ(two.verdict, Verdict::two_roots);
-  EXPECT_NE(two.advice.find("leave out --projection web-mercator"), std::string::npos) << two.advice;
+  EXPECT_NE(two.advice.find("leave out ‹projection› web-mercator"), std::string::npos) << two.advice;
   EXPECT_EQ(check_square({.root_span_deg = 360.0}).verdict, Verdict::one_root);
 }
 

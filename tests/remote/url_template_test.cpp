@@ -87,7 +87,7 @@ TEST(UrlTemplate, RefusesByNameWhatItIsNot) {
 
 TEST(UrlTemplate, RefusesGridsOutOfRange) {
   const std::string url = "https://example.com/{z}/{x}/{y}.png";
-  expect_template_refused(url, "--levels", {});
+  expect_template_refused(url, "‹levels›", {});
   expect_template_refused(url, "max_level", {.max_level = 25});
   expect_template_refused(url, "min_level", {.min_level = 3, .max_level = 2});
   expect_template_refused(url, "tile_px", {.tile_px = 3, .max_level = 2});

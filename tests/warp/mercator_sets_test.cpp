@@ -136,7 +136,7 @@ TEST(MercatorSets, MbtilesWhoseTilesDoNotGoWithThat) {
                   "CREATE TABLE metadata (name TEXT, value TEXT);");
     for (int x = 0; x < (wide ? 4 : 2); ++x) test::insert_tile(file, 1, x, 0, square_tile(1, 0, 0));
     const std::string message = error_on_opening(file);
-    EXPECT_NE(message.find("--projection equirectangular"), std::string::npos) << message;
+    EXPECT_NE(message.find("‹projection› equirectangular"), std::string::npos) << message;
     EXPECT_TRUE(open_tile_set(file, true));
   }
 }

@@ -10,6 +10,7 @@
 
 #include "apps/open_scene/scene_objects.h"
 #include "apps/process/console.h"
+#include "apps/process/option_names.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/tools/recent_files.h"
@@ -144,7 +145,7 @@ void Layers::watch_tiles(const FrameStats& stats) {
       return tile.layer == row.id && kind != MissingKind::absent && kind != MissingKind::blank;
     });
     if (last == tiles.rend()) continue;
-    row.problem = one_line(last->failure.why);
+    row.problem = one_line(shown_message(last->failure.why));
     if (is_new) context_.messages.report(fmt::format("{}; L shows the layer, which tries again", row.problem));
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "streaming/url.h"
+#include "apps/process/option_names.h"
 
 namespace terrella {
 namespace {
@@ -19,7 +19,7 @@ void Messages::say(const std::string& text) {
 }
 
 void Messages::say(const std::string& text, Clock::duration time) {
-  text_ = redact_addresses(text);
+  text_ = shown_message(text);
   until_ = Clock::now() + time;
 }
 
@@ -30,7 +30,7 @@ void Messages::say_then(const std::string& text, std::function<void()> act) {
 
 void Messages::report(const std::string& problem) {
   const bool more = !problems_.empty() && text_ == problems_;
-  problems_ = more ? problems_ + "\n" + redact_addresses(problem) : redact_addresses(problem);
+  problems_ = more ? problems_ + "\n" + shown_message(problem) : shown_message(problem);
   say(problems_);
 }
 

@@ -44,7 +44,7 @@ Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture
   if (picture.width_px != 2 * picture.height_px) {
     return Error{
         fmt::format("{}: nothing in it says where it lies (files beside it on the server are not read), and {}x{} "
-                    "pixels are no whole planet (2:1); say it with --crs CRS and --bounds W,S,E,N",
+                    "pixels are no whole planet (2:1); say it with ‹crs› CRS and ‹bounds› W,S,E,N",
                     picture.path.string(), picture.width_px, picture.height_px)};
   }
   place.placed.remarks.push_back(taken_for_planet(picture.path.string()));
@@ -157,7 +157,7 @@ bool is_many(const CutOptions& options) {
 Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
   if (!options.elevation && !options.numbers) return std::optional<HeightPlan>();
   if (options.format && options.format != ImageFormat::png) {
-    return Error{"heights and other numbers are written as PNG or TIFF; leave --format out"};
+    return Error{"heights and other numbers are written as PNG or TIFF; leave ‹format› out"};
   }
   HeightPictures pictures{.images = options.images, .many = !options.raster && is_many(options)};
   if (options.raster) pictures.remote = options.raster->picture.raster;

@@ -111,7 +111,7 @@ Result<HeightPlan> plan_floats(const HeightPictures& pictures, const CutElevatio
     }
     if (range.least > range.most) {
       return Error{
-          fmt::format("{}: holds no height: each pixel is no data or not a number; say with --nodata which value "
+          fmt::format("{}: holds no height: each pixel is no data or not a number; say with ‹nodata› which value "
                       "means no data, or name another file",
                       pictures.images.front().string())};
     }
@@ -223,7 +223,7 @@ Result<HeightPlan> plan_heights(const HeightPictures& pictures, const CutElevati
   const auto first = probe_all(pictures, {});
   if (!first) return first.error();
   if (options.scale && (*options.scale == 0.0 || !std::isfinite(*options.scale))) {
-    return Error{"--scale: it takes metres per number, not 0"};
+    return Error{"‹scale›: it takes metres per number, not 0"};
   }
   plan.coding = {.kind = first->kind, .nodata = possible(options.nodata ? options.nodata : first->nodata, first->kind)};
   if (first->kind == HeightKind::float32) {

@@ -167,7 +167,7 @@ Result<MosaicLayout> by_places(const std::vector<MosaicPart>& parts) {
     if (!parts[i].place) {
       return Error{
           fmt::format("{}: where in the mosaic it lies is neither said by its name (A1 to D2) nor by GeoTIFF "
-                      "tags or a world file; give --mosaic COLSxROWS, the pictures in rows from the north-west",
+                      "tags or a world file; give ‹mosaic› COLSxROWS, the pictures in rows from the north-west",
                       named(parts[i], i))};
     }
     const auto corner = pixel_of(parts, i);
@@ -206,7 +206,7 @@ Result<std::optional<Placement>> said_origin(const std::vector<MosaicPart>& part
         if (std::abs(west_off) > slack || std::abs(said.north_deg - origin->north_deg) > slack) {
           return Error{
               fmt::format("{}: says that it lies {:.6g} degrees east and {:.6g} north of its place in the "
-                          "mosaic; leave out --mosaic, or say where the whole lies with --bounds",
+                          "mosaic; leave out ‹mosaic›, or say where the whole lies with ‹bounds›",
                           named(parts[index], index), west_off, said.north_deg - origin->north_deg)};
         }
       }
@@ -228,7 +228,7 @@ Result<MosaicLayout> with_said_place(MosaicLayout layout, const std::vector<Mosa
       std::abs(by_name.north_deg - (*origin)->north_deg) > slack) {
     return Error{fmt::format(
         "{}: its name puts the mosaic's corner at {:.9g}, {:.9g} degrees, and its georeference at "
-        "{:.9g}, {:.9g}; rename the parts, or say where they lie with --mosaic and --bounds",
+        "{:.9g}, {:.9g}; rename the parts, or say where they lie with ‹mosaic› and ‹bounds›",
         named(parts.front(), 0), by_name.west_deg, by_name.north_deg, (*origin)->west_deg, (*origin)->north_deg)};
   }
   layout.place = **origin;

@@ -98,7 +98,7 @@ Result<PicturePlace> find_joined_place(const CutOptions& options, const PictureF
   const PlaceWords words = words_of(options);
   if (words.say_place()) {
     if (!words.crs.empty() && words.bounds) {
-      return Error{"--crs with --bounds places one picture; join the parts first: " + join_command(options.images)};
+      return Error{"‹crs› with ‹bounds› places one picture; join the parts first: " + join_command(options.images)};
     }
     const auto said = place_of_words(joined, words);
     if (!said) return said.error();

@@ -114,7 +114,7 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
   const ImageFormat format = sniff_format(std::as_bytes(std::span(head)));
   if (format != ImageFormat::unknown && choice.composite) {
     return Error{
-        fmt::format("{}: --bands chooses bands of a TIFF; leave it out, or convert the picture "
+        fmt::format("{}: ‹bands› chooses bands of a TIFF; leave it out, or convert the picture "
                     "(gdal_translate -of COG)",
                     name)};
   }

@@ -179,7 +179,7 @@ Result<WarpedInput> open_many(const CutOptions& options, const std::optional<Hei
   }
   if (heights && !(*tiles)->info().numbers) {
     return Error{
-        fmt::format("{}: its files are pictures, and no numbers; leave --band, --nodata and --elevation out", name)};
+        fmt::format("{}: its files are pictures, and no numbers; leave ‹band›, ‹nodata› and ‹elevation› out", name)};
   }
   const LatitudeKind latitude = (*tiles)->info().grid.latitude;
   log->ended = true;

@@ -80,7 +80,7 @@ Result<FoundShards> find_shards(const fs::path& output, const std::string& key, 
   if (count == 0) {
     return Error{
         fmt::format("{}: no shards of these pictures with these options lie beside it; cut them first with "
-                    "--shard 1/N to --shard N/N",
+                    "‹shard› 1/N to ‹shard› N/N",
                     output.string())};
   }
   FoundShards found;

@@ -72,11 +72,11 @@ Status read_service(const pugi::xml_node& root, XmlValues& values, GdalWmsDocume
   }
   if (values.flag("UnsafeSSL", false)) {
     return Error{
-        "it asks not to check the server's certificate (UnsafeSSL); take that out, and give --ca-file to preload if "
+        "it asks not to check the server's certificate (UnsafeSSL); take that out, and give ‹ca_file› to preload if "
         "the "
         "certificate is your own"};
   }
-  if (values.flag("OfflineMode", false)) return Error{"it says OfflineMode; take that out and say --offline"};
+  if (values.flag("OfflineMode", false)) return Error{"it says OfflineMode; take that out and say ‹offline›"};
   return Done{};
 }
 

@@ -59,7 +59,7 @@ void join(WmsLayer& all, const WmsLayer& next) {
 Result<WmsLayer> find_layer(const std::vector<WmsLayer>& layers, const std::string& wanted) {
   if (wanted.empty() && layers.size() == 1) return layers.front();
   if (wanted.empty()) {
-    return Error{fmt::format("say which of its layers with --layer: {}", names_of(layers))};
+    return Error{fmt::format("say which of its layers with ‹layer›: {}", names_of(layers))};
   }
   std::optional<WmsLayer> found;
   for (const std::string& name : split(wanted)) {

@@ -34,7 +34,7 @@ Result<WmtsLayer> find_layer(const pugi::xml_node& contents, const std::string& 
     if (!wanted.empty() && names.back() == wanted) return read_wmts_layer(node);
   }
   if (wanted.empty() && layers.size() == 1) return read_wmts_layer(layers.front());
-  if (wanted.empty()) return Error{fmt::format("say which of its layers with --layer: {}", list_of(names))};
+  if (wanted.empty()) return Error{fmt::format("say which of its layers with ‹layer›: {}", list_of(names))};
   const auto near = std::ranges::find_if(names, [&](const std::string& name) { return same_letters(name, wanted); });
   if (near != names.end()) return Error{fmt::format("it has no layer \"{}\", but \"{}\"", wanted, *near)};
   return Error{fmt::format("it has no layer \"{}\"; its layers: {}", wanted, list_of(names))};

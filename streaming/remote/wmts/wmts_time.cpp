@@ -115,10 +115,10 @@ std::string list_of(const WmtsDimension& dimension) {
 Result<ChosenTime> choose_time(const WmtsDimension& dimension, const std::string& given) {
   const std::string& value = given.empty() ? dimension.otherwise : given;
   if (value.empty())
-    return Error{fmt::format("its {} has no default; say --layer-time ({})", dimension.name, list_of(dimension))};
+    return Error{fmt::format("its {} has no default; say ‹time› ({})", dimension.name, list_of(dimension))};
   const bool check = !given.empty() && given != dimension.otherwise && !dimension.values.empty();
   if (check && !is_listed(dimension, value)) {
-    return Error{fmt::format("it has nothing at --layer-time {} ({})", value, list_of(dimension))};
+    return Error{fmt::format("it has nothing at ‹time› {} ({})", value, list_of(dimension))};
   }
   return ChosenTime{value, is_newest(dimension, value)};
 }
