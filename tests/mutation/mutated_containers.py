@@ -167,7 +167,7 @@ def judge(done, verifies):
 
 def report(ends, wrong, seed):
     for kind, counts in ends.items():
-        print(f"{kind:12} " + "   ".join(f"{name} {dict(sorted(count.items()))}" for name, count in counts.items()))
+        print(f"{kind:12} " + "   ".join(f"{name} {dict(sorted(count.items(), key=str))}" for name, count in counts.items()))
     print(f"{sum(sum(counts['info'].values()) for counts in ends.values())} mutants of seed {seed}: {wrong} failed")
 
 

@@ -209,6 +209,10 @@ class Viewer:
 
         return wait_until("a picture at rest", same)
 
+    def panel(self, name):
+        """The rectangle of a panel, once it is in a layout."""
+        return wait_until(f"the panel {name}", lambda: self.layout.panels.get(name))
+
     def open_menu(self, x, y):
         """By a right click; waits until the menu is there and stands still."""
         self.move(x, y)

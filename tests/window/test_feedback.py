@@ -54,9 +54,9 @@ class Servers(Feedback):
         shares = []
         for _ in range(2):
             viewer.settled()
-            before, bottom = self.ink(viewer), viewer.layout.panels["Layers"][3]
+            before, bottom = self.ink(viewer), viewer.panel("Layers")[3]
             self.open_address(viewer, NOWHERE)
-            wait_until("the layer's row", lambda: viewer.layout.panels["Layers"][3] > bottom)
+            wait_until("the layer's row", lambda: viewer.panel("Layers")[3] > bottom)
             time.sleep(1.0)  # the panel is drawn
             used, start = processor_s(viewer.program.pid), time.monotonic()
             while self.ink(viewer) < before + INK_PIXELS:

@@ -50,22 +50,21 @@ class Keys(WindowTest):
 
     def test_g_draws_the_graticule_f1_the_list_and_escape_asks_before_it_leaves(self):
         viewer = self.start("--camera", "20,10,12000000")
-        plain = png.read(self.screenshot(viewer, "without"))
-        viewer.key("g")
-        lined = png.read(self.screenshot(viewer, "graticule"))
+
+        def shot(name, key=None):
+            if key:
+                viewer.key(key)
+            viewer.settled(still_s=0.5)
+            return png.read(self.screenshot(viewer, name))
+
+        plain = shot("without")
         self.assertEqual(plain[:2], SIZE)
-        self.assertGreater(png.changed(plain, lined), 2000)  # 20 lines of some 300 px, where the ground is not bright
-        viewer.key("g")
-        again = png.read(self.screenshot(viewer, "without_again"))
-        self.assertLess(png.changed(plain, again), CHANGED_WORDS)
-        viewer.key("F1")
-        helped = png.read(self.screenshot(viewer, "help"))
-        self.assertGreater(png.changed(plain, helped), 20000)
-        viewer.key("question")
-        again = png.read(self.screenshot(viewer, "closed"))
-        self.assertLess(png.changed(plain, again), CHANGED_WORDS)
-        viewer.settled()
-        plain = png.read(self.screenshot(viewer, "plain"))
+        # 20 lines of some 300 px, where the ground is not bright
+        self.assertGreater(png.changed(plain, shot("graticule", "g")), 2000)
+        self.assertLess(png.changed(plain, shot("without_again", "g")), CHANGED_WORDS)
+        self.assertGreater(png.changed(plain, shot("help", "F1")), 20000)
+        self.assertLess(png.changed(plain, shot("closed", "question")), CHANGED_WORDS)
+        plain = shot("plain")
         for _ in range(2):  # the question is forgotten after 3 s
             viewer.key("Escape")
             time.sleep(0.5)

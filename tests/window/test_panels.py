@@ -103,7 +103,7 @@ class Panels(WindowTest):
         time.sleep(0.5)
         left, row = round(closed[0]), round(closed[1]) + 65  # below the title and the row of switches
         viewer.click(left + 90, row)  # opens the row's content
-        wait_until("the row", lambda: viewer.layout.panels["Layers"] != closed)
+        wait_until("the row", lambda: viewer.panel("Layers") != closed)
         self.screenshot(viewer, "row")
         viewer.drag((left + 168, row + 26), (left + 68, row + 26))
         faded = png.pixel(png.read(self.screenshot(viewer, "faded")), *ground)

@@ -74,11 +74,11 @@ class Twice(WindowTest):
 
         for name, do, undo in SHOWN:
             with self.subTest(name):
-                shots = []
+                shots = []  # frames of a loaded machine may be half a second apart
                 for time_done in ("first", "second"):
                     self.do(viewer, do)
                     wait_until(f"{time_done} time: a change", lambda: changed() > OTHER)
-                    shots.append(viewer.settled(PANEL_ROWS, still_s=0.4))
+                    shots.append(viewer.settled(PANEL_ROWS, still_s=1.0))
                     self.do(viewer, undo)
                     self.assertIsNone(viewer.program.poll(), "the window is open")
                     wait_until(f"{time_done} time: taken back", lambda: changed() < SAME)
