@@ -80,17 +80,10 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
-/// Options for opening the heights. The description and server options of TILESET do not apply. A cache holds one
-/// source's tiles, so the heights' cache stands beside a given --cache.
+/// Options for opening the heights, whose cache stands beside a given --cache.
 SceneOptions heights_options(const SceneOptions& options) {
-  SceneOptions heights = options;
-  heights.tile_set = options.elevation;
-  heights.projection.reset();
-  heights.latitude.reset();
-  heights.place = {};
-  heights.numbers = {};
+  SceneOptions heights = options_beside(options, options.elevation);
   heights.numbers.heights = true;
-  heights.remote = {};
   if (!options.cache.empty() && options.cache != "off") {
     const fs::path cache = options.cache;
     heights.cache = (cache.parent_path() / (cache.stem().string() + "-heights.gpkg")).string();

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "apps/open_scene/open_cache.h"
@@ -92,9 +93,7 @@ Result<Tiles> cut_and_open(CutOptions cut, const fs::path& folder, const CutProg
 }
 
 /// Cuts a picture into a folder, or begins to.
-Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const SceneOptions& options,
-                       const CutProgress& told) {
-  CutOptions cut = cut_options(picture, options, holds_numbers(picture));
+Result<Tiles> cut_into(CutOptions cut, const fs::path& folder, const SceneOptions& options, const CutProgress& told) {
   if (options.cuts == nullptr) return cut_and_open(std::move(cut), folder, told);
   const auto path = cache_path(cut, folder);
   if (!path) return path.error();
@@ -109,23 +108,32 @@ Result<Tiles> cut_into(const fs::path& picture, const fs::path& folder, const Sc
 }
 
 /// Opens a raster that shows at once. Its tiles are on the grid of its cut, so that its pixels are copied.
-Result<DirectFile> open_in_place(const fs::path& picture, const SceneOptions& options) {
-  if (picture_kind(picture) != PictureKind::raster) return DirectFile{};
-  const auto file = measure_raster(picture);
-  if (!file) return file.error();
-  const CutOptions cut = cut_options(picture, options, holds_numbers(*file->raster));
-  auto grid = grid_of_pixels(cut, *file);
+Result<DirectFile> open_in_place(const PictureFile& raster, const CutOptions& cut, const SceneOptions& options) {
+  auto grid = grid_of_pixels(cut, raster);
   if (!grid) return grid.error();
   if (*grid) (*grid)->reduced = false;
   DirectOptions direct{cut.body, options.latitude, options.place, *grid, {}};
   set_numbers(direct.reading, cut);
-  return open_direct(*file, direct);
+  return open_direct(raster, direct);
+}
+
+/// Opens the picture where it lies; no tiles if it must be cut. Sets how it is cut.
+Result<DirectFile> try_in_place(const fs::path& picture, const SceneOptions& options, CutOptions& cut) {
+  std::optional<PictureFile> raster;
+  if (picture_kind(picture) == PictureKind::raster) {
+    auto file = measure_raster(picture);
+    if (!file) return file.error();
+    raster = *std::move(file);
+  }
+  cut = cut_options(picture, options, raster && holds_numbers(*raster->raster));
+  return raster ? open_in_place(*raster, cut, options) : Result<DirectFile>(DirectFile{});
 }
 
 }  // namespace
 
 Result<Tiles> open_picture(const fs::path& picture, const SceneOptions& options, const CutProgress& told) {
-  auto direct = open_in_place(picture, options);
+  CutOptions cut;
+  auto direct = try_in_place(picture, options, cut);
   if (!direct) return direct.error();
   if (direct->tiles) {
     std::ranges::for_each(direct->remarks, print_remark);
@@ -133,13 +141,13 @@ Result<Tiles> open_picture(const fs::path& picture, const SceneOptions& options,
   }
   if (options.cache != "off") {
     const auto folder = picture_cache_folder(options.cache);
-    auto kept = folder ? cut_into(picture, *folder, options, told) : Result<Tiles>(folder.error());
+    auto kept = folder ? cut_into(cut, *folder, options, told) : Result<Tiles>(folder.error());
     if (kept || (folder && can_write_into(*folder))) return kept;
     say_without_cache(kept.error());
   }
   auto scratch = make_scratch_folder();
   if (!scratch) return scratch.error();
-  auto tiles = cut_into(picture, (*scratch)->path(), options, told);
+  auto tiles = cut_into(std::move(cut), (*scratch)->path(), options, told);
   if (!tiles) return tiles.error();
   // The tiles share the life of their folder.
   const auto both = std::make_shared<ScratchTiles>(ScratchTiles{*std::move(scratch), *std::move(tiles)});

@@ -8,19 +8,9 @@
 namespace terrella {
 namespace {
 
-/// Adds a layer without TILESET's description and server options, and with its own cache. A cache holds one source's
-/// tiles.
 Status add_layer(Globe& globe, const SceneOptions& options, const Url& tile_set, const ImageLook& look) {
   if (tile_set.empty()) return Done{};
-  SceneOptions layer = options;
-  layer.tile_set = tile_set;
-  layer.projection.reset();
-  layer.latitude.reset();
-  layer.place = {};
-  layer.numbers = {};
-  layer.remote = {};
-  if (layer.cache != "off") layer.cache.clear();
-  auto tiles = open_imagery(layer);
+  auto tiles = open_imagery(options_beside(options, tile_set));
   if (!tiles) return tiles.error();
   if (const auto added = globe.add_imagery(*std::move(tiles), look); !added) return added.error();
   return Done{};

@@ -26,15 +26,9 @@ Result<OverlayOption> parse_overlay(const std::string& text) {
 Result<std::vector<std::optional<NumberFacts>>> add_overlays(Globe& globe, const SceneOptions& options) {
   std::vector<std::optional<NumberFacts>> facts;
   for (const OverlayOption& overlay : options.overlays) {
-    SceneOptions scene = options;
-    scene.tile_set = overlay.tile_set;
+    SceneOptions scene = options_beside(options, overlay.tile_set);
     scene.projection = options.overlay_projection;
-    scene.latitude.reset();
-    scene.place = {};
-    if (!options.tile_set.empty()) scene.numbers = {};
-    scene.remote = {};
-    // A cache holds one source's tiles.
-    if (scene.cache != "off") scene.cache.clear();
+    if (options.tile_set.empty()) scene.numbers = options.numbers;
     auto opened = open_layer(scene);
     if (!opened) return opened.error();
     opened->look.opacity = overlay.opacity;

@@ -44,7 +44,7 @@ T must(Result<T, E> result) {
   return std::move(result).value();
 }
 
-std::shared_ptr<TileCache> open_cache(const fs::path& path, std::uint64_t max_bytes = 0) {
+std::shared_ptr<TileCache> cache_at(const fs::path& path, std::uint64_t max_bytes = 0) {
   return must(TileCache::open(path, growth_info(), kGrowthSource, {.max_bytes = max_bytes}));
 }
 
@@ -72,7 +72,7 @@ void store_drawn_tiles(TileCache& cache) {
 /// flight.
 void make_cache(const fs::path& path, std::int64_t tiles) {
   remove_database(path);
-  store_drawn_tiles(*open_cache(path));
+  store_drawn_tiles(*cache_at(path));
   auto database = must(SqliteWriter::open(path, SqliteWriter::Mode::existing));
   const std::string rows = fmt::format(
       "WITH RECURSIVE k(n) AS (SELECT 0 UNION ALL SELECT n + 1 FROM k WHERE n + 1 < {}) INSERT INTO tiles "
@@ -100,7 +100,7 @@ class CacheGrowth {
     make_cache(path, tiles);
     megabytes_ = 1e-6 * static_cast<double>(fs::file_size(path));
     say("opened");
-    timed("open", 3, [&] { open_cache(path); });
+    timed("open", 3, [&] { cache_at(path); });
     look_up(path);
     timed("info", 1, [&] { must(read_cache_report(path, 1'700'000'000)); });
     draw(path);
@@ -139,7 +139,7 @@ class CacheGrowth {
 
   void look_up(const fs::path& path) {
     say("look-ups");
-    const auto cache = open_cache(path);
+    const auto cache = cache_at(path);
     std::mt19937_64 random(1);
     std::uniform_int_distribution<std::int64_t> any(0, tiles_ - drawn_tiles() - 1);
     timed(
@@ -181,7 +181,7 @@ class CacheGrowth {
   /// ones make room for SQLite's log, which counts; the others are timed.
   void evict(const fs::path& path) {
     say("tiles evicted");
-    const auto cache = open_cache(path, static_cast<std::uint64_t>(1e6 * megabytes_));
+    const auto cache = cache_at(path, static_cast<std::uint64_t>(1e6 * megabytes_));
     const std::int64_t stored = std::max(kLeastStored, tiles_ / kStoredPart);
     const auto store = [&](std::int64_t first) {
       for (std::int64_t k = first; k < first + stored; ++k) {

@@ -233,6 +233,18 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_remote_set_options(command, options.remote);
 }
 
+SceneOptions options_beside(const SceneOptions& options, const Url& tile_set) {
+  SceneOptions other = options;
+  other.tile_set = tile_set;
+  other.projection.reset();
+  other.latitude.reset();
+  other.place = {};
+  other.numbers = {};
+  other.remote = {};
+  if (other.cache != "off") other.cache.clear();
+  return other;
+}
+
 Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
   if (options.body) return *options.body;
   if (info.body.empty()) return earth();

@@ -78,6 +78,10 @@ inline constexpr int kMaxSide_px = 16384;
 /// Adds TILESET and the options to a subcommand; `options` must outlive the parse. thread: main
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
+/// Options for another source of the scene than TILESET. The statements about TILESET and the options of its server do
+/// not apply. A cache holds the tiles of one source, so the other source's cache is the default one. thread: any
+[[nodiscard]] SceneOptions options_beside(const SceneOptions& options, const Url& tile_set);
+
 /// Returns --body, else the tile set's body, else Earth. Fails if the tile set names an invalid body.
 [[nodiscard]] Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info);
 

@@ -76,18 +76,11 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   }
   if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
   if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
-  SceneOptions tiles_options = options;
-  tiles_options.tile_set = path.string();
-  tiles_options.projection.reset();
-  tiles_options.latitude.reset();
-  tiles_options.place = {};
-  tiles_options.numbers = {};
-  tiles_options.remote = {};
+  SceneOptions tiles_options = options_beside(options, path.string());
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   tiles_options.cuts = &cuts;
   OpenedRasters rasters;
   tiles_options.opened = &rasters;
-  if (tiles_options.cache != "off") tiles_options.cache.clear();  // a cache holds one source's tiles
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
   FactsReader read_facts = facts_reader(tiles_options.tile_set, {}, {}, rasters);
