@@ -41,6 +41,7 @@ struct BenchOptions {
 [[nodiscard]] Result<Report> bench_traverse(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stream(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_objects(const BenchOptions& options);
+[[nodiscard]] Result<Report> bench_layers(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_stability(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_growth(const BenchOptions& options);
 [[nodiscard]] Result<Report> bench_features(const BenchOptions& options);

@@ -34,7 +34,8 @@ constexpr std::array kBenches{
     NamedBench{"accuracy", bench::bench_accuracy},   NamedBench{"traverse", bench::bench_traverse},
     NamedBench{"stream", bench::bench_stream},       NamedBench{"objects", bench::bench_objects},
     NamedBench{"stability", bench::bench_stability}, NamedBench{"growth", bench::bench_growth},
-    NamedBench{"features", bench::bench_features},   NamedBench{"limb", bench::bench_limb}};
+    NamedBench{"features", bench::bench_features},   NamedBench{"limb", bench::bench_limb},
+    NamedBench{"layers", bench::bench_layers}};
 constexpr NamedBench kPrograms{"programs", bench::bench_programs};  // needs commands, so `all` has it not
 
 constexpr const char* kBenchExamples =
@@ -49,6 +50,7 @@ constexpr const char* kBenchExamples =
     "stability  a pass-or-fail self-test on this GPU: functions, depth, jitter, coordinates, geodesy, same pixels\n"
     "growth     cost against size: depth of a set, pixels, layers, tiles in a cache (--full: up to 10^7)\n"
     "features   cost of each feature of a frame: stereo, sky, relief, layers, spheres, numbers\n"
+    "layers     image layers in three lights, as ratios to the bare globe\n"
     "limb       the limb beside the same pictures drawn larger, with a sky and without\n"
     "programs   time and memory of shell commands that take turns, as ratios to the first one\n"
     "all        every one of these but programs; one page, index.html, with all tables and plots, to attach to a "

@@ -53,7 +53,7 @@ class Bench(ProgramTest):
 
     def test_all_write_tables_and_one_page(self):
         results = self.run_benches()
-        self.assertEqual(set(results), set(BENCHES) | {"stability", "growth", "objects", "features", "limb"})
+        self.assertEqual(set(results), set(BENCHES) | {"stability", "growth", "objects", "features", "limb", "layers"})
         for name, (time, error) in BENCHES.items():
             with self.subTest(name):
                 rows = self.check_files(name, results[name])
@@ -70,6 +70,7 @@ class Bench(ProgramTest):
         self.check_files("objects", results["objects"])
         self.check_the_features(self.check_files("features", results["features"]))
         self.check_the_limb(self.check_files("limb", results["limb"]))
+        self.assertEqual(len(self.check_files("layers", results["layers"])), 21)
         self.check_the_growth(results["growth"])
         self.check_the_page(results)
 
