@@ -14,8 +14,8 @@
 #include "apps/bench/frame_timing.h"
 #include "apps/bench/sources/wave_numbers.h"
 #include "apps/bench/value_of.h"
-#include "apps/setup/data_dir.h"
-#include "apps/setup/sky_data.h"
+#include "apps/open_scene/sky_data.h"
+#include "apps/process/data_dir.h"
 #include "render/gl/offscreen.h"
 #include "streaming/sets/open_tile_set.h"
 

@@ -18,6 +18,7 @@ struct Experiments {
   /// Draws in the order of an opaque globe with blending switched on. The picture then has the artefacts that paper 2
   /// prevents.
   bool naive_translucency = false;
+  bool layers_one_by_one = false;           ///< draws each image layer in a pass of its own
   std::optional<unsigned> patch_shuffle{};  ///< seed of a random order of the patches; none: the normal order
   /// Mapping from the cube to the sphere. It holds for layers added later, so set it before the first layer.
   CubeMapping mapping = CubeMapping::tangent;

@@ -135,7 +135,8 @@ FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px)
                    .on_draw = &on_draw,
                    .paper_a = globe->experiments.paper_a,
                    .paper_band = globe->experiments.paper_band,
-                   .naive_translucency = globe->experiments.naive_translucency};
+                   .naive_translucency = globe->experiments.naive_translucency,
+                   .layers_one_by_one = globe->experiments.layers_one_by_one};
   for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->has_night()));
   return input;
 }

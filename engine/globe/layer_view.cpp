@@ -10,13 +10,6 @@ namespace {
 /// Priority of drawn tiles that have a better edition: after all tiles that are not there.
 constexpr double kRenewal = -1e9;
 
-std::span<const WindowCell> cells_of(const TileCoverage& coverage, std::size_t patch) {
-  const PatchDraw& draw = coverage.draws[patch];
-  return std::span(coverage.cells).subspan(draw.window.x, (draw.window.y & 0xFFFFU) * (draw.window.y >> 16U));
-}
-
-bool has_tile(WindowCell cell) { return (cell & 0xFFFFU) != 0; }
-
 }  // namespace
 
 bool LayerView::has_tiles(std::size_t patch) const { return std::ranges::any_of(cells_of(coverage_, patch), has_tile); }
@@ -103,7 +96,8 @@ LayerFrame LayerView::frame(bool is_base, bool has_night) {
           .daylight = has_night ? look.daylight : Daylight::both,
           .alpha = look.alpha,
           .height_m = is_base ? 0.0 : look.height_m,
-          .special = layer_.is_special(has_night)};
+          .special = layer_.is_special(has_night),
+          .hides = hides_ && numbers == nullptr};
 }
 
 // Patches of a root tile that has finally failed can never be covered, so nothing waits for them.

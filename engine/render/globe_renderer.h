@@ -53,6 +53,7 @@ struct LayerFrame {
   double height_m = 0.0;  ///< ImageLook::height_m
   /// The layer needs special programs: it shows on one side of the terminator, or takes alpha from brightness.
   bool special = false;
+  bool hides = false;  ///< hides all layers under it wherever it has tiles
 };
 
 /// Input of one frame.
@@ -80,6 +81,7 @@ struct FrameInput {
   /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
   /// prevents.
   bool naive_translucency = false;
+  bool layers_one_by_one = false;  ///< for tests: no pass combines layers
 };
 
 /// The memory of one view from frame to frame.
@@ -199,13 +201,16 @@ class GlobeRenderer {
   static void copy_samples(const gl::Program& program, GLuint texture, GLuint framebuffer, const DrawState& state,
                            const FrameTargets& from, glm::ivec2 corner_px);
 
-  // globe_surface.cpp: the image layers.
+  // globe_layers.cpp, globe_surface.cpp: the image layers.
   [[nodiscard]] PatchScene scene_of(const Pass& pass) const;
   Status prepare_layers(const Pass& pass);
+  void plan_stacks(const Pass& pass);
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
+  [[nodiscard]] static bool shares_vertices(const LayerFrame& layer, const LayerFrame& base);
   void upload_layers(const FrameInput& input);
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
+  [[nodiscard]] glm::vec4 texels_of(const LayerFrame& layer) const;
   void upload_frame(const LayerFrame& layer) const;
   void describe_limb(const Pass& pass, FrameBlock& block) const;
   void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
@@ -214,6 +219,7 @@ class GlobeRenderer {
   void draw_air_before_glass(const Pass& pass, DrawState state) const;
   void draw_layers_translucent(const Pass& pass, DrawState state) const;
   void draw_whole(const Pass& pass, PatchPass::Whole what, const DrawState& state) const;
+  void draw_stacks(const Pass& pass, bool first_pass, const DrawState& state) const;
   void draw_base(const Pass& pass, const DrawState& state) const;
   void draw_upper(const Pass& pass, const LayerFrame& layer, const DrawState& state,
                   PatchPass::Limb limb = PatchPass::Limb::raised) const;
@@ -242,6 +248,8 @@ class GlobeRenderer {
   int longest_side_px_ = FrameTargets::longest_side_px();
   bool relief_ = false;
   std::unique_ptr<PatchPass> patches_;
+  PatchStacks stacks_;
+  std::vector<StackLayer> stack_layers_;   ///< the layers of the frame that is drawn
   std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief
   std::unique_ptr<LimbPass> limb_;
   std::unique_ptr<OutlinePass> outline_;

@@ -72,39 +72,6 @@ PatchScene GlobeRenderer::scene_of(const Pass& pass) const {
   return scene;
 }
 
-Status GlobeRenderer::prepare_layers(const Pass& pass) {
-  patches_->set_scene(scene_of(pass));
-  for (const LayerFrame& layer : pass.input.layers) {
-    const bool numbers = layer.gpu->numbers != nullptr;
-    if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches); !s) return s;
-  }
-  return Done{};
-}
-
-// An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
-void GlobeRenderer::upload_layers(const FrameInput& input) {
-  const LayerFrame& base = input.layers.front();
-  const TileGrid& rows = base.tree->grid();
-  const bool shaded = input.relief != nullptr && input.lit;
-  if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
-  if (slopes_) slopes_->set_views(input.views);
-  for (const LayerFrame& layer : input.layers) {
-    const TileGrid& grid = layer.tree->grid();
-    const bool shares = &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
-    std::unique_ptr<PatchBuffers>& own = *layer.vertices;
-    if (shares) {
-      own.reset();
-    } else if (!own) {
-      own = std::make_unique<PatchBuffers>(layer.tree->segments(),
-                                           input.relief != nullptr ? &input.relief->grid() : nullptr);
-    }
-    if (own) own->set_views(input.views);
-    patches_->upload(*layer.gpu, {vertices_of(layer, base), own ? *layer.tree : *base.tree, own != nullptr},
-                     *layer.patches, *layer.coverage, input.frame);
-    if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
-  }
-}
-
 // An opaque surface takes one pass. A translucent surface takes two, so that no part of the surface shows through
 // another (paper 2, sections 2.2 and 2.11).
 void GlobeRenderer::draw_surface(const Pass& pass) const {
@@ -151,8 +118,10 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
   if (translucent && !pass.upper().empty()) return draw_layers_translucent(pass, state);
   if (translucent) state.blend = surface_blend(pass.input.surface);
   draw_base(pass, state);
+  draw_stacks(pass, true, state);
   state.depth = kSameDepth;
   state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
+  draw_stacks(pass, false, state);
   for (const LayerFrame& layer : pass.upper()) {
     if (is_over_ground(pass, layer)) {
       draw_at_height(pass, layer, -layer.height_m / ellipsoid_.a_m(), state);  // its shadow
@@ -205,6 +174,12 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
   draw_whole(pass, PatchPass::Whole::black, state);
 }
 
+void GlobeRenderer::draw_stacks(const Pass& pass, bool first_pass, const DrawState& state) const {
+  const LayerFrame& base = pass.base();
+  if (light_of(pass.input).relief) slopes_->bind(*base.gpu);
+  patches_->draw_stacks(stacks_, first_pass, stack_layers_, *base.gpu, vertices_of(base, base), state, pass.counts);
+}
+
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
   if (light_of(pass.input).relief) slopes_->bind(*base.gpu);
@@ -240,14 +215,17 @@ void GlobeRenderer::describe_limb(const Pass& pass, FrameBlock& block) const {
   block.limb_bend = glm::vec4(limb->bend, limb->there);
 }
 
+glm::vec4 GlobeRenderer::texels_of(const LayerFrame& layer) const {
+  const SlotLayout& layout = layer.tiles->layout();
+  const bool centric = layer.tree->grid().latitude == LatitudeKind::centric;
+  return {double(layout.tile_px) / layout.slot_px(), layout.slot_px(), layer.tiles->mips(),
+          centric ? ellipsoid_.one_minus_e2() : 1.0};
+}
+
 // Sets the uniforms that depend on a layer.
 void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) const {
-  const SlotLayout& layout = layer.tiles->layout();
-  const TileGrid& grid = layer.tree->grid();
-  const double polar_scale = grid.latitude == LatitudeKind::centric ? ellipsoid_.one_minus_e2() : 1.0;
-  block.texels =
-      glm::vec4(double(layout.tile_px) / layout.slot_px(), layout.slot_px(), layer.tiles->mips(), polar_scale);
-  block.paper.z = grid.projection == Projection::equal_area ? 1.0F : 0.0F;
+  block.texels = texels_of(layer);
+  block.paper.z = layer.tree->grid().projection == Projection::equal_area ? 1.0F : 0.0F;
   block.paper.w = static_cast<float>(layer.opacity);
   const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
   block.layer_look = glm::vec4(layer.daylight == Daylight::both ? 0.0F : side,

@@ -21,6 +21,21 @@ flat out uvec4 slope_window;
 const vec3 kFromNorthWest = vec3(-0.5, 0.5, 0.70710678);
 #endif
 
+// The windows of further layers of a stack. Without slopes there is room for a fourth layer.
+#if defined(STACK)
+layout(location = 11) in vec4 scale_1;
+layout(location = 12) in uvec4 patch_window_1;
+layout(location = 13) in vec4 scale_2;
+layout(location = 14) in uvec4 patch_window_2;
+out vec2 window_point_1, window_point_2, window_point_3;
+flat out uvec4 window_1, window_2, window_3;
+flat out vec4 center_and_scale_1, center_and_scale_2, center_and_scale_3;
+#if STACK > 3
+layout(location = 9) in vec4 scale_3;
+layout(location = 10) in uvec4 patch_window_3;
+#endif
+#endif
+
 #if defined(SPECIAL_LAYER)
 out float shadow_of_layer;
 #endif
@@ -165,6 +180,19 @@ void main() {
   float w = -position_view.z;
   gl_Position = vec4(position_view.xy * clip_scale.xy, vertex_depth(w), w);
   window_point = patch_center_and_scale.xy + offset_deg * vec2(patch_center_and_scale.z, -patch_center_and_scale.w);
+#if defined(STACK)
+  window_point_1 = scale_1.xy + offset_deg * vec2(scale_1.z, -scale_1.w);
+  window_point_2 = scale_2.xy + offset_deg * vec2(scale_2.z, -scale_2.w);
+  window_1 = patch_window_1;
+  window_2 = patch_window_2;
+  center_and_scale_1 = scale_1;
+  center_and_scale_2 = scale_2;
+#if STACK > 3
+  window_point_3 = scale_3.xy + offset_deg * vec2(scale_3.z, -scale_3.w);
+  window_3 = patch_window_3;
+  center_and_scale_3 = scale_3;
+#endif
+#endif
   row_direction = direction;
 #if defined(SPECIAL_LAYER)
   // The shadow that the layer towards the Sun throws on the ground. surface_look.x is then the layer's height in radii,

@@ -1,19 +1,14 @@
 // Look-ups shared by all texturing methods of patches.
 layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
 
-in vec2 window_point;
 in vec3 row_direction;
 in float light;
 #if defined(SPECIAL_LAYER) || defined(AT_LIMB)
 in float towards_eye;
 #endif
-flat in uvec4 window;            // first cell; width | height << 16; column and row of that cell, low bits
-flat in vec4 center_and_scale;
 flat in vec4 frame;
 flat in vec4 row;
 layout(location = 0) out vec4 color_srgb;
-
-ivec2 window_size() { return ivec2(window.y & 0xFFFFu, window.y >> 16); }
 
 // A cell: slot coordinates of a window point p are p * scale + offset.
 struct Cell {
@@ -21,20 +16,6 @@ struct Cell {
   vec2 offset;
   float layer;
 };
-
-vec3 slot_point(Cell cell, vec2 p) { return vec3(p * cell.scale + cell.offset, cell.layer); }
-
-// Returns the cell under a window point. A cell is one word: a fetch of four floats costs a software rasteriser as much
-// as two bilinear taps.
-Cell cell_at(vec2 p) {
-  ivec2 size = window_size();
-  ivec2 c = clamp(ivec2(p), ivec2(0), size - 1);
-  uint bits = texelFetch(window_cells, int(window.x) + c.y * size.x + c.x).x;
-  uvec2 up = uvec2(bits >> 24, (bits >> 16) & 0xFFu);
-  uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // selects one of the tile's 2^up.x by 2^up.y parts
-  vec2 scale = texels.x * uintBitsToFloat((127u - up) << 23);      // 2^-up
-  return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
-}
 
 #if defined(SPECIAL_LAYER)
 #define UPPER_LAYER
@@ -115,29 +96,34 @@ vec3 with_glint(vec3 color_srgb, vec3 imagery_srgb) {
 #define with_glint(color_srgb, imagery_srgb) (color_srgb)
 #endif
 
-vec3 lit(vec3 imagery_srgb, float alpha) {
+// `sea`: the sea in the imagery mirrors the Sun.
+vec3 lit(vec3 imagery_srgb, float alpha, bool sea) {
 #if defined(RELIEF)
   vec3 shaded_srgb = imagery_srgb * relief_light();
 #else
   vec3 shaded_srgb = imagery_srgb;
 #endif
 #if defined(DAY_AND_NIGHT)
-  return with_glint(by_sunlight(shaded_srgb), imagery_srgb) * sun_tint + city_lights() * alpha;
+  vec3 day_srgb = by_sunlight(shaded_srgb);
+  return (sea ? with_glint(day_srgb, imagery_srgb) : day_srgb) * sun_tint + city_lights() * alpha;
 #else
-  return with_glint(shaded_srgb * light, imagery_srgb);
+  vec3 lit_srgb = shaded_srgb * light;
+  return sea ? with_glint(lit_srgb, imagery_srgb) : lit_srgb;
 #endif
 }
 
 #if defined(SPECIAL_LAYER)
 in float shadow_of_layer;   // by day
 
-// Shown fraction of a layer by day or night.
-float part_shown() {
-  if (layer_look.x == 0.0) return 1.0;
-  float night = lamplight(dot(normalize(ground_normal()), sun_ecef.xyz));
-  return layer_look.x > 0.0 ? 1.0 - night : night;
-}
 #endif
+
+// Shown fraction of a layer by day or night; `side`: layer_look.x.
+float part_shown(float side) {
+  if (side == 0.0) return 1.0;
+  float night = lamplight(dot(normalize(ground_normal()), sun_ecef.xyz));
+  return side > 0.0 ? 1.0 - night : night;
+}
+float brightness(vec3 imagery_srgb) { return max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b); }
 
 // The result equals blending all layers first and lighting the blend. Layers that show by night emit light and are not
 // lit.
@@ -149,8 +135,8 @@ void finish(Imagery imagery_srgb) {
   const float alpha = 1.0, share = 1.0;
 #endif
 #if defined(SPECIAL_LAYER)
-  if (layer_look.y > 0.0) alpha = max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b);
-  share *= part_shown();
+  if (layer_look.y > 0.0) alpha = brightness(imagery_srgb.rgb);
+  share *= part_shown(layer_look.x);
   if (surface_look.x < 0.0) {                    // the layer's shadow on the ground, behind the air
     color_srgb = vec4(through_air(vec3(0.0), 1.0), 1.0) * (alpha * share * shadow_of_layer);
     WRITE_DEPTH(1.0);
@@ -160,10 +146,38 @@ void finish(Imagery imagery_srgb) {
     float inside = towards_eye * abs(towards_eye);
     share *= clamp(inside / max(fwidth(inside), 1e-9), 0.0, 1.0);
   }
-  vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha);
+  vec3 color = layer_look.x < 0.0 ? imagery_srgb.rgb : lit(imagery_srgb.rgb, alpha, false);
 #else
-  vec3 color = lit(imagery_srgb.rgb, alpha);
+  vec3 color = lit(imagery_srgb.rgb, alpha, true);
 #endif
   color_srgb = vec4(through_air(color, alpha), alpha) * share;
   WRITE_DEPTH(1.0);
+}
+
+// Places of a long pixel's taps: a rank-1 lattice, evenly spaced along both sides and centred. Place i of n is i along
+// the one side and i times a stride modulo n along the other.
+struct Lattice {
+  int n;
+  float step;                    // 1/n
+  float stride;                  // over n
+};
+const Lattice kThree = Lattice(3, 1.0 / 3.0, 2.0 / 3.0);
+const Lattice kSeven = Lattice(7, 1.0 / 7.0, 3.0 / 7.0);
+
+// Strides by n: of 3, and of 7 to 16.
+const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
+
+// Enough places for a pixel of that length: about one a texel. Three suffice up to two texels. A pixel may be long along
+// its diagonal, where four to six places leave gaps.
+Lattice lattice_of(float pixel_texels) {
+  int n = int(min(ceil(0.9 * pixel_texels), 16.0));
+  n = pixel_texels <= 2.0 ? 3 : max(n, 7);
+  float step = 1.0 / float(n);
+  return Lattice(n, step, strides[n] * step);
+}
+
+// Place i, from -0.5 to 0.5 along the pixel's sides.
+vec2 place(Lattice lattice, int i) {
+  return vec2(float(i) * lattice.step, fract(float(i) * lattice.stride + 0.5 * lattice.step)) +
+         vec2(0.5 * lattice.step - 0.5, -0.5);
 }

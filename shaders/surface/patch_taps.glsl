@@ -1,12 +1,35 @@
-// Look-ups of texels. Taps return Texels, which can be added and weighed; seen() makes imagery of their mean. Texels are
-// colours or, with NUMBERS, numbers, which are filtered first and coloured by seen().
+// Look-ups in the tiles of one layer. Taps return Texels, which can be added and weighed; seen() makes imagery of their
+// mean. Texels are colours or, with NUMBERS, numbers, which are filtered first and coloured by seen(). A stack has this
+// text once for each of its layers, with other names (PatchPass::make_stack_program()).
+#if !defined(STACK)
+in vec2 window_point;
+flat in vec4 center_and_scale;
+flat in uvec4 window;            // first cell; width | height << 16; column and row of that cell, low bits
 layout(binding = 0) uniform sampler2DArray tiles;           // bilinear, only the finest texels
-
-#if defined(NUMBERS)
+layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
+layout(binding = 3) uniform sampler2DArray tiles_precise;
 layout(binding = 4) uniform sampler2D number_colors;        // premultiplied; 0 to 1 is the stretch
 // Texel without data; how far other texels are from it at least; position in the stretch = texel * z + w.
 layout(location = 0) uniform vec4 number_look;
+#endif
 
+ivec2 window_size() { return ivec2(window.y & 0xFFFFu, window.y >> 16); }
+
+vec3 slot_point(Cell cell, vec2 p) { return vec3(p * cell.scale + cell.offset, cell.layer); }
+
+// Returns the cell under a window point. A cell is one word: a fetch of four floats costs a software rasteriser as much
+// as two bilinear taps.
+Cell cell_at(vec2 p) {
+  ivec2 size = window_size();
+  ivec2 c = clamp(ivec2(p), ivec2(0), size - 1);
+  uint bits = texelFetch(window_cells, int(window.x) + c.y * size.x + c.x).x;
+  uvec2 up = uvec2(bits >> 24, (bits >> 16) & 0xFFu);
+  uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // selects one of the tile's 2^up.x by 2^up.y parts
+  vec2 scale = texels.x * uintBitsToFloat((127u - up) << 23);      // 2^-up
+  return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
+}
+
+#if defined(NUMBERS)
 #define Texels vec2                                         // sum of texel times weight, sum of weights; known texels only
 
 vec2 known(vec4 texel, vec4 weight) {
@@ -55,9 +78,6 @@ Imagery seen(vec2 mean) {
 #endif
 }
 #else
-layout(binding = 2) uniform sampler2DArray tiles_mipmapped;
-layout(binding = 3) uniform sampler2DArray tiles_precise;
-
 #define Texels Imagery
 #define seen(mean) (mean)
 
@@ -68,35 +88,7 @@ Texels mip_tap(Cell cell, vec2 p, float level) {
 }
 #endif
 
-// Places of a long pixel's taps: a rank-1 lattice, evenly spaced along both sides and centred. Place i of n is i along
-// the one side and i times a stride modulo n along the other.
-struct Lattice {
-  int n;
-  float step;                    // 1/n
-  float stride;                  // over n
-};
-const Lattice kThree = Lattice(3, 1.0 / 3.0, 2.0 / 3.0);
-const Lattice kSeven = Lattice(7, 1.0 / 7.0, 3.0 / 7.0);
-
-// Strides by n: of 3, and of 7 to 16.
-const float strides[17] = float[](1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 3, 4, 5, 5, 5, 4, 7);
-
 float length_texels(vec2 a, vec2 b, Cell cell) {
   vec2 a_slot = a * cell.scale, b_slot = b * cell.scale;
   return sqrt(max(dot(a_slot, a_slot), dot(b_slot, b_slot))) * texels.y;
-}
-
-// Enough places for a pixel of that length: about one a texel. Three suffice up to two texels. A pixel may be long along
-// its diagonal, where four to six places leave gaps.
-Lattice lattice_of(float pixel_texels) {
-  int n = int(min(ceil(0.9 * pixel_texels), 16.0));
-  n = pixel_texels <= 2.0 ? 3 : max(n, 7);
-  float step = 1.0 / float(n);
-  return Lattice(n, step, strides[n] * step);
-}
-
-// Place i, from -0.5 to 0.5 along the pixel's sides.
-vec2 place(Lattice lattice, int i) {
-  return vec2(float(i) * lattice.step, fract(float(i) * lattice.stride + 0.5 * lattice.step)) +
-         vec2(0.5 * lattice.step - 0.5, -0.5);
 }

@@ -22,8 +22,8 @@ TileGrid grid_to(int max_level) {
 Result<gl::Program> window_program(ShaderFunctions functions) {
   return build_program({{GL_VERTEX_SHADER, {"frame.glsl", "patch.vert"}},
                         {GL_FRAGMENT_SHADER,
-                         {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_exact_point.glsl",
-                          "probe_window.frag"}}},
+                         {"frame.glsl", "functions.glsl", "air.glsl", "patch_common.glsl", "patch_taps.glsl",
+                          "patch_exact_point.glsl", "probe_window.frag"}}},
                        {depth_define(DepthMode::reversed), functions_define(functions)});
 }
 

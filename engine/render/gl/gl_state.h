@@ -16,7 +16,7 @@ void set_first_gl_state();
 /// are not saved, so none of them may be active. thread: main (of the context)
 class GlState {
  public:
-  static constexpr GLuint kUnits = 11;  ///< number of texture units that passes use
+  static constexpr GLuint kUnits = 16;  ///< number of texture units that passes use
   GlState();
   ~GlState();
   GlState(const GlState&) = delete;

@@ -1,5 +1,6 @@
 #include "render/gl/shader_library.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,9 +43,12 @@ std::optional<std::string> shader_text(std::string_view name) {
 
 namespace {
 
-std::string joined(std::initializer_list<std::string_view> names) {
+bool is_text(std::string_view entry) { return entry.find('\n') != std::string_view::npos; }
+
+std::string joined(const std::vector<std::string_view>& names) {
   std::string all;
-  for (std::string_view name : names) all += (all.empty() ? "" : ", ") + std::string(name);
+  for (std::string_view name : names)
+    if (!is_text(name)) all += (all.empty() ? "" : ", ") + std::string(name);
   return all;
 }
 
@@ -61,7 +65,7 @@ Result<GLuint> compile(const ShaderStage& stage, std::initializer_list<std::stri
   std::string text = "#version 450 core\n";
   for (std::string_view define : defines) text += "#define " + std::string(define) + "\n";
   for (std::string_view file : stage.files) {
-    const auto part = shader_text(file);
+    const std::optional<std::string> part = is_text(file) ? std::string(file) : shader_text(file);
     if (!part) return Error{"shader " + std::string(file) + " is missing from this installation"};
     text += "#line 1\n" + *part;
   }
@@ -106,7 +110,8 @@ Result<gl::Program> build_program(std::initializer_list<ShaderStage> stages,
                                 GL_INTERLEAVED_ATTRIBS);
   }
   glLinkProgram(program.name());
-  const std::string_view name = *(std::prev(std::prev(stages.end())->files.end()));
+  const std::vector<std::string_view>& last = std::prev(stages.end())->files;
+  const std::string_view name = *std::find_if_not(last.rbegin(), last.rend(), is_text);
   glObjectLabel(GL_PROGRAM, program.name(), static_cast<GLsizei>(name.size()), name.data());
   GLint ok = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &ok);

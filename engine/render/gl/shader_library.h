@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "render/gl/gl_handle.h"
@@ -12,10 +13,10 @@
 
 namespace terrella {
 
-/// One stage of a program: files of shaders/, concatenated.
+/// One stage of a program: files of shaders/, concatenated. An entry with a line break is text in place of a file.
 struct ShaderStage {
   GLenum type;
-  std::initializer_list<std::string_view> files;
+  std::vector<std::string_view> files;
 };
 
 /// Reads shaders from a folder, and those in it, instead of the embedded ones; empty: the embedded ones. Programs that

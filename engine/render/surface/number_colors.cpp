@@ -31,9 +31,9 @@ void NumberColors::set(const NumberLook& look) {
   glTextureSubImage2D(texture_.name(), 0, 0, 0, kBakedColors, 1, GL_RGBA, GL_UNSIGNED_BYTE, bake(look).data());
 }
 
-void NumberColors::bind() const {
-  glBindTextureUnit(kUnit, texture_.name());
-  glBindSampler(kUnit, 0);
+void NumberColors::bind(GLuint unit) const {
+  glBindTextureUnit(unit, texture_.name());
+  glBindSampler(unit, 0);
 }
 
 }  // namespace terrella

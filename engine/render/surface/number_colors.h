@@ -23,7 +23,7 @@ class NumberColors {
 
   /// Takes a look over, if it is another. Uploads the texture. Needs the context.
   void set(const NumberLook& look);
-  void bind() const;  ///< the texture to kUnit; after set()
+  void bind(GLuint unit = kUnit) const;  ///< the texture; after set()
   [[nodiscard]] const glm::vec4& uniform() const { return uniform_; }
   [[nodiscard]] const NumberInfo& info() const { return info_; }
 

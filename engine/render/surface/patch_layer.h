@@ -1,9 +1,26 @@
 #pragma once
 
+#include <vector>
+
 #include "render/gl/gl_handle.h"
 #include "render/surface/number_colors.h"
 
 namespace terrella {
+
+/// The record that glMultiDrawElementsIndirect reads.
+struct DrawCommand {
+  GLuint count;
+  GLuint instances;
+  GLuint first_index;
+  GLint base_vertex;
+  GLuint base_instance;
+};
+
+/// Replaces the contents of a buffer that changes with each frame.
+template <class T>
+void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
+  glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+}
 
 /// The GPU data from which the patches of one image layer in one view are drawn. PatchPass makes it, and fills it once
 /// per frame. thread: main

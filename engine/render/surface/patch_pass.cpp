@@ -15,15 +15,6 @@
 namespace terrella {
 namespace {
 
-/// The record that glMultiDrawElementsIndirect reads.
-struct DrawCommand {
-  GLuint count;
-  GLuint instances;
-  GLuint first_index;
-  GLint base_vertex;
-  GLuint base_instance;
-};
-
 // A pixel with a smaller footprint lies within one bilinear cell, so one tap at full precision suffices.
 constexpr double kMagnifiedFootprint_texels = 0.7;
 // In the pole bands (PatchSelectionOptions::band) pixels are long without a slant. Three taps on pixels longer than
@@ -46,16 +37,11 @@ gl::Sampler sampler(GLenum minify, GLenum wrap) {
   return s;
 }
 
-template <class T>
-void stream(const gl::Buffer& buffer, const std::vector<T>& data) {
-  glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
-}
-
 }  // namespace
 
 std::unique_ptr<PatchPass> PatchPass::create(const RenderOptions& options, bool has_relief) {
   std::unique_ptr<PatchPass> pass(new PatchPass(options, has_relief));
-  pass->set_up_vertex_array();
+  pass->set_up_vertex_arrays();
   pass->set_up_samplers();
   return pass;
 }
@@ -63,12 +49,17 @@ std::unique_ptr<PatchPass> PatchPass::create(const RenderOptions& options, bool 
 void PatchPass::set_relief(bool has_relief) {
   if (has_relief_ == has_relief) return;
   has_relief_ = has_relief;
-  set_up_vertex_array();
+  set_up_vertex_arrays();
 }
 
-void PatchPass::set_up_vertex_array() {
-  vertex_array_ = gl::make_vertex_array();
-  const GLuint array = vertex_array_.name();
+void PatchPass::set_up_vertex_arrays() {
+  vertex_array_ = make_vertex_array();
+  stack_array_ = make_stack_array();
+}
+
+gl::VertexArray PatchPass::make_vertex_array() const {
+  gl::VertexArray made = gl::make_vertex_array();
+  const GLuint array = made.name();
   glVertexArrayBindingDivisor(array, 1, 1);
   gl::float_attribute(array, 0, 0, 3, offsetof(PatchVertex, position_high_m));
   gl::float_attribute(array, 1, 0, 3, offsetof(PatchVertex, position_low_m));
@@ -78,11 +69,12 @@ void PatchPass::set_up_vertex_array() {
   gl::float_attribute(array, 5, 1, 4, offsetof(PatchDraw, frame));
   gl::float_attribute(array, 6, 1, 4, offsetof(PatchDraw, row));
   gl::uint_attribute(array, 7, 1, 4, offsetof(PatchDraw, window));
-  if (!has_relief_) return;
+  if (!has_relief_) return made;
   gl::float_attribute(array, 8, 2, 2, 0);
   glVertexArrayBindingDivisor(array, 3, 1);
   gl::float_attribute(array, 9, 3, 4, offsetof(SlopeDraw, center_and_scale));
   gl::uint_attribute(array, 10, 3, 4, offsetof(SlopeDraw, window));
+  return made;
 }
 
 void PatchPass::set_up_samplers() {
@@ -147,35 +139,47 @@ bool PatchPass::is_dark(const PatchNode& node) const {
 // The length is an estimate for the middle of a patch. Beside the limb, where lit pictures need all taps, pixels vary.
 double PatchPass::most_of_seven() const { return std::min(kSevenTaps_texels, scene_.plain_footprint_texels); }
 
-void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
-                       const TileCoverage& coverage, std::uint64_t frame) const {
+DrawCommand PatchPass::command_of(const SelectedPatch& patch, std::size_t instance, const Vertices& vertices,
+                                  std::uint64_t frame) {
   const auto& [buffers, tree, own] = vertices;
+  const PatchIndices::Range range =
+      buffers.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
+  const int place = buffers.place_of(tree, own ? *patch.node : *patch.surface, frame);
+  return {range.count, 1, range.first, place * buffers.vertices_per_patch(), static_cast<GLuint>(instance)};
+}
+
+DrawCommand PatchPass::limb_of(DrawCommand patch, const PatchBuffers& buffers,
+                               std::vector<std::uint16_t>& indices) const {
+  const auto first = static_cast<GLuint>(indices.size());
+  const std::span<const glm::vec3> points = buffers.points(patch.base_vertex / buffers.vertices_per_patch());
+  for (std::uint32_t i = patch.first_index; i < patch.first_index + patch.count; i += 3) {
+    const std::uint16_t* corner = buffers.indices().indices.data() + i;
+    if (!scene_.limb->holds(points[corner[0]]) && !scene_.limb->holds(points[corner[1]]) &&
+        !scene_.limb->holds(points[corner[2]]))
+      continue;
+    indices.insert(indices.end(), corner, corner + 3);
+  }
+  patch.first_index = first;
+  patch.count = static_cast<GLuint>(indices.size()) - first;
+  return patch;
+}
+
+void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
+                       const TileCoverage& coverage, const std::vector<bool>& own, std::uint64_t frame) const {
   std::vector<DrawCommand> by_program[kVariants];
   std::vector<std::uint16_t> limb_indices;
   layer.triangles = 0;
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
-    const PatchIndices::Range range =
-        buffers.indices().ranges[forward_diagonal(patch.node->id) ? 1 : 0][patch.coarse_sides];
-    const int place = buffers.place_of(tree, own ? *patch.node : *patch.surface, frame);
-    by_program[variant_for(patch)].push_back(
-        {range.count, 1, range.first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
-    layer.triangles += range.count / 3;
+    if (!own.empty() && !own[k]) continue;
+    const DrawCommand whole = command_of(patch, k, vertices, frame);
+    by_program[variant_for(patch)].push_back(whole);
+    layer.triangles += whole.count / 3;
     if (!is_on_limb(patch)) continue;
-    const auto first = static_cast<GLuint>(limb_indices.size());
-    const std::span<const glm::vec3> points = buffers.points(place);
-    for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
-      const std::uint16_t* corner = buffers.indices().indices.data() + i;
-      if (!scene_.limb->holds(points[corner[0]]) && !scene_.limb->holds(points[corner[1]]) &&
-          !scene_.limb->holds(points[corner[2]]))
-        continue;
-      limb_indices.insert(limb_indices.end(), corner, corner + 3);
-    }
-    const auto count = static_cast<GLuint>(limb_indices.size()) - first;
-    if (count == 0) continue;
-    by_program[limb_variant_for(patch)].push_back(
-        {count, 1, first, place * buffers.vertices_per_patch(), static_cast<GLuint>(k)});
-    layer.triangles += count / 3;
+    const DrawCommand limb = limb_of(whole, vertices.buffers, limb_indices);
+    if (limb.count == 0) continue;
+    by_program[limb_variant_for(patch)].push_back(limb);
+    layer.triangles += limb.count / 3;
   }
   std::vector<DrawCommand> commands;
   for (int p = 0; p < kVariants; ++p) {
@@ -197,8 +201,9 @@ void PatchPass::upload(PatchLayer& layer, const Vertices& vertices, const std::v
   glTextureBuffer(layer.cells_texture.name(), GL_R32UI, layer.cells.name());
 }
 
-void PatchPass::bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const {
-  const GLuint array = vertex_array_.name();
+void PatchPass::bind_vertices(const gl::VertexArray& vertex_array, const PatchLayer& layer,
+                              const PatchBuffers& vertices) const {
+  const GLuint array = vertex_array.name();
   glVertexArrayElementBuffer(array, vertices.index_buffer());
   glVertexArrayVertexBuffer(array, 0, vertices.vertex_buffer(), 0, sizeof(PatchVertex));
   glVertexArrayVertexBuffer(array, 1, layer.draws.name(), 0, sizeof(PatchDraw));
@@ -231,7 +236,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
   glBindSampler(2, mipmapped_.name());
   glBindSampler(3, precise_.name());
   if (numbers) layer.numbers->bind();
-  bind_vertices(layer, vertices);
+  bind_vertices(vertex_array_, layer, vertices);
   // The limb comes first: it lies before the ground that whole patches have there.
   for (int k = 0; k < kVariants; ++k) {
     const int p = (k + PatchLayer::kWholeVariants) % kVariants;
@@ -253,7 +258,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
 void PatchPass::draw_whole(Whole what, const PatchLayer& layer, const PatchBuffers& vertices, const DrawState& state,
                            FrameCounts& counts) {
   if (what == Whole::air) scene_.air->bind_ground();
-  bind_vertices(layer, vertices);
+  bind_vertices(vertex_array_, layer, vertices);
   const int* first = layer.first_command;
   apply(state.with(whole_program(what, false).name()));
   draw_commands(first[0], first[PatchLayer::kWholeVariants], counts);

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -15,6 +18,7 @@
 #include "render/sky/air_textures.h"
 #include "render/surface/patch_buffers.h"
 #include "render/surface/patch_layer.h"
+#include "render/surface/patch_stacks.h"
 #include "render/surface/tile_textures.h"
 #include "surface/limb.h"
 #include "surface/plan/patch_selection.h"
@@ -81,17 +85,30 @@ class PatchPass {
   /// Draws in this scene from now on.
   void set_scene(const PatchScene& scene) { scene_ = scene; }
   /// Builds the programs that draw these patches of a layer of pictures or numbers in the scene, each once; for upper
-  /// layers also that of Whole::black.
-  Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches);
+  /// layers also that of Whole::black. `own` as upload() has it.
+  Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches, const std::vector<bool>& own);
   /// The vertices from which a layer is drawn: its own, of its tree, or those of the base layer and its tree.
   struct Vertices {
     PatchBuffers& buffers;
     const PatchTree& tree;
     bool own;
   };
-  /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch.
+  /// Uploads a layer's draws, once per frame for both eyes. `coverage` has one entry per patch. `own`: false for
+  /// patches to leave out; empty: none.
   void upload(PatchLayer& layer, const Vertices& vertices, const std::vector<SelectedPatch>& patches,
-              const TileCoverage& coverage, std::uint64_t frame) const;
+              const TileCoverage& coverage, const std::vector<bool>& own, std::uint64_t frame) const;
+
+  /// Decides which passes draw several layers at once. `layers`: all of a frame, the lowest first. The first `stacked`
+  /// share the rows of the base layer's grid and lie on the ground; the others are drawn one by one.
+  void plan(std::span<const StackLayer> layers, std::size_t stacked, PatchStacks& out) const;
+  /// Builds the programs of stacks in the scene, each once.
+  Status prepare(const PatchStacks& stacks);
+  /// Uploads the draws of planned stacks.
+  void upload(PatchStacks& stacks, std::span<const StackLayer> layers, const Vertices& base, std::uint64_t frame) const;
+  /// Draws the first pass of the stacks, or the later ones. `base`: the base layer, after its upload.
+  void draw_stacks(const PatchStacks& stacks, bool first_pass, std::span<const StackLayer> layers,
+                   const PatchLayer& base, const PatchBuffers& vertices, const DrawState& state,
+                   FrameCounts& counts) const;
   /// The limb of a layer that lies on the ground is raised with the ground (PatchScene::limb).
   enum class Limb { raised, flat };
   /// Draws a layer, program by program. Needs prepare().
@@ -128,12 +145,32 @@ class PatchPass {
   /// Features of a program that not all patches of a layer need.
   struct Extras {
     bool city_lights = false, pole = false, limb = false;
+    int stack = 0;  ///< layers of a stack; 0: none
   };
-  Status build(gl::Program& place, std::initializer_list<std::string_view> fragment, LayerRole role, bool numbers,
+  Status build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, bool numbers,
                const Extras& extras) const;
-  void set_up_vertex_array();
+  [[nodiscard]] gl::VertexArray make_vertex_array() const;
+  void set_up_vertex_arrays();
+  [[nodiscard]] gl::VertexArray make_stack_array() const;
   void set_up_samplers();
-  void bind_vertices(const PatchLayer& layer, const PatchBuffers& vertices) const;
+  void bind_vertices(const gl::VertexArray& vertex_array, const PatchLayer& layer, const PatchBuffers& vertices) const;
+  /// The command that draws a patch with the attributes of an instance.
+  [[nodiscard]] static DrawCommand command_of(const SelectedPatch& patch, std::size_t instance,
+                                              const Vertices& vertices, std::uint64_t frame);
+  /// The command that draws the triangles of a patch at the limb, whose indices it appends.
+  [[nodiscard]] DrawCommand limb_of(DrawCommand patch, const PatchBuffers& buffers,
+                                    std::vector<std::uint16_t>& indices) const;
+  /// Layers that show on a patch, the lowest first, each with the number of the patch among its own.
+  using Shown = std::vector<std::pair<std::uint16_t, std::uint32_t>>;
+  void add_groups(std::span<const StackLayer> layers, std::uint32_t patch, const Shown& shown, bool whole,
+                  PatchStacks& out) const;
+  void bind_stack(const PatchStacks::Group& group, std::span<const StackLayer> layers, GLuint program) const;
+  Status make_stack_program(gl::Program& place, const StackProgram& program);
+  Status choose_functions();
+  /// Place in stack_programs_ of a StackProgram::key() in the present air and light.
+  [[nodiscard]] std::uint64_t stack_place(std::uint32_t key) const {
+    return std::uint64_t{key} << 32U | which() << 8U | static_cast<std::uint64_t>(scene_.light.index());
+  }
   [[nodiscard]] gl::Program& whole_program(Whole what, bool limb);
   static void draw_commands(int first, int last, FrameCounts& counts);
   [[nodiscard]] PatchLayer::Program program_for(const SelectedPatch& patch) const;
@@ -157,7 +194,8 @@ class PatchPass {
   static constexpr std::size_t kRoles = 3, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
   gl::Program depth_programs_[2], flat_programs_[2];  ///< for whole patches, and for the limb
-  gl::VertexArray vertex_array_;
+  std::map<std::uint64_t, gl::Program> stack_programs_;
+  gl::VertexArray vertex_array_, stack_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;
 };
 

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "surface/plan/tile_uses.h"
@@ -46,6 +47,14 @@ struct TileCoverage {
   bool shown = false;              ///< a cell in view, within the grid's bounds, has a tile
   bool operator==(const TileCoverage&) const = default;
 };
+
+/// The cells of a draw of a coverage.
+[[nodiscard]] inline std::span<const WindowCell> cells_of(const TileCoverage& coverage, std::size_t draw) {
+  const glm::uvec4& window = coverage.draws[draw].window;
+  return std::span(coverage.cells).subspan(window.x, std::size_t{window.y & 0xFFFFU} * (window.y >> 16U));
+}
+/// False for a cell without a tile.
+[[nodiscard]] inline bool has_tile(WindowCell cell) { return (cell & 0xFFFFU) != 0; }
 
 /// A layer at a height, metres over the ground, throws a shadow under this Sun: unit vector, ECEF.
 struct ShadowCast {

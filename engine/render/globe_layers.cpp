@@ -1,0 +1,75 @@
+#include "render/globe_renderer.h"
+
+// The image layers before they are drawn: their programs, the stacks that combine them, and uploads.
+namespace terrella {
+
+Status GlobeRenderer::prepare_layers(const Pass& pass) {
+  patches_->set_scene(scene_of(pass));
+  plan_stacks(pass);
+  for (std::size_t k = 0; k < pass.input.layers.size(); ++k) {
+    const LayerFrame& layer = pass.input.layers[k];
+    const bool numbers = layer.gpu->numbers != nullptr;
+    if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches, stacks_.own[k]); !s) return s;
+  }
+  return patches_->prepare(stacks_);
+}
+
+// Layers up to the first that has other rows than the base layer, or a shadow, or light of its own that the base
+// layer's vertices do not have. A translucent surface is drawn layer by layer.
+void GlobeRenderer::plan_stacks(const Pass& pass) {
+  const auto& layers = pass.input.layers;
+  stack_layers_.clear();
+  std::size_t stacked = 0;
+  // Formulas of paper 1 are for comparison.
+  const bool opaque = options_.texturing != Texturing::paper && pass.input.surface.alpha >= 1.0 &&
+                      !pass.input.naive_translucency && !pass.input.layers_one_by_one;
+  for (const LayerFrame& layer : layers) {
+    const bool night = layer.daylight == Daylight::night;
+    const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
+    stack_layers_.push_back({.patches = layer.patches,
+                             .coverage = layer.coverage,
+                             .tiles = layer.tiles,
+                             .numbers = layer.gpu->numbers,
+                             .texels = texels_of(layer),
+                             .look = {layer.opacity, layer.daylight == Daylight::both ? 0.0F : side,
+                                      layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F},
+                             .special = layer.special,
+                             .hides = layer.hides});
+    const bool fits =
+        &layer == &layers.front() || (shares_vertices(layer, layers.front()) &&
+                                      !(layer.height_m > 0.0 && pass.input.lit) && (!night || options_.night_lights));
+    if (opaque && fits && stacked + 1 == stack_layers_.size()) ++stacked;
+  }
+  patches_->plan(stack_layers_, stacked, stacks_);
+}
+
+// An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
+bool GlobeRenderer::shares_vertices(const LayerFrame& layer, const LayerFrame& base) {
+  const TileGrid &grid = layer.tree->grid(), &rows = base.tree->grid();
+  return &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
+}
+
+void GlobeRenderer::upload_layers(const FrameInput& input) {
+  const LayerFrame& base = input.layers.front();
+  const bool shaded = input.relief != nullptr && input.lit;
+  if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
+  if (slopes_) slopes_->set_views(input.views);
+  for (std::size_t k = 0; k < input.layers.size(); ++k) {
+    const LayerFrame& layer = input.layers[k];
+    const bool shares = shares_vertices(layer, base);
+    std::unique_ptr<PatchBuffers>& own = *layer.vertices;
+    if (shares) {
+      own.reset();
+    } else if (!own) {
+      own = std::make_unique<PatchBuffers>(layer.tree->segments(),
+                                           input.relief != nullptr ? &input.relief->grid() : nullptr);
+    }
+    if (own) own->set_views(input.views);
+    patches_->upload(*layer.gpu, {vertices_of(layer, base), own ? *layer.tree : *base.tree, own != nullptr},
+                     *layer.patches, *layer.coverage, stacks_.own[k], input.frame);
+    if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
+  }
+  patches_->upload(stacks_, stack_layers_, {vertices_of(base, base), *base.tree, true}, input.frame);
+}
+
+}  // namespace terrella
