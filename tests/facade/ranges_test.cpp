@@ -214,7 +214,7 @@ TEST_F(Ranges, OfImageLayers) {
   });
   const std::vector<Row<TileGrid>> grids = {
       {"root_span_deg",
-       {1.0, 1e4},
+       {2.0, 1e4},
        {0.0, -1.0, 1.1e4, kNoNumberAtAll},
        [](TileGrid& g, double v) { g.root_span_deg = v; }},
       {"tile_px", {16, 4096}, {-1, 0, 15, 4097}, [](TileGrid& g, double v) { g.tile_px = int(v); }},
