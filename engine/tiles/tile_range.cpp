@@ -1,5 +1,7 @@
 #include "tiles/tile_range.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
