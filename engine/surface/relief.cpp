@@ -29,6 +29,7 @@ double span_m(const Ellipsoid& e, const TileGrid& grid) {
 Relief::Relief(const Ellipsoid& ellipsoid, const TileGrid& grid, double exaggeration, std::size_t budget_bytes)
     : ellipsoid_(ellipsoid),
       field_(ellipsoid, grid),
+      roots_(root_tiles(grid)),
       exaggeration_(exaggeration),
       tile_bytes_(sizeof(float) * static_cast<std::size_t>(grid.tile_px) * static_cast<std::size_t>(grid.tile_px)),
       most_tiles_(std::max<std::size_t>(64, budget_bytes / tile_bytes_)) {}
@@ -197,7 +198,7 @@ std::vector<WantedTile> Relief::want(const std::vector<SelectedPatch>& patches) 
   ++round_;
   tiles_.end_frame(round_, grid().min_level);
   std::vector<WantedTile> wanted;
-  for (const TileId& id : root_tiles(grid())) want_tile(id, 1e9, wanted);
+  for (const TileId& id : roots_) want_tile(id, 1e9, wanted);
   want_too(patches, wanted);
   return wanted;
 }

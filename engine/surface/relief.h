@@ -92,6 +92,7 @@ class Relief : public GroundHeights {
 
   Ellipsoid ellipsoid_;
   HeightField field_;
+  const std::vector<TileId> roots_;  ///< tiles of the coarsest level
   double exaggeration_;
   std::size_t tile_bytes_;
   std::size_t most_tiles_;

@@ -53,6 +53,7 @@ StackProgram StackProgram::of_key(std::uint32_t key) {
 void PatchPass::plan(std::span<const StackLayer> layers, std::size_t stacked, PatchStacks& out) const {
   out.groups.clear();
   out.own.assign(layers.size(), {});
+  if (layers.size() < 2) return;
   std::vector<Shown> shown(layers.front().patches->size());
   std::unordered_map<PatchId, std::uint32_t, PatchIdHash> place;
   for (std::uint32_t k = 0; k < shown.size(); ++k) {

@@ -54,7 +54,7 @@ struct PatchStacks {
   };
   std::vector<Group> groups;  ///< in the order of drawing
   /// By layer of the frame and patch of that layer: true if the layer's own programs draw the patch. A stack draws the
-  /// others, or nothing of the layer shows there.
+  /// others, or nothing of the layer shows there. Empty for a layer alone, which draws all.
   std::vector<std::vector<bool>> own;
 
   std::vector<Batch> batches;
