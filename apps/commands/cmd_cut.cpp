@@ -93,7 +93,7 @@ Status open_address(CutCommand& command) {
   if (std::ranges::none_of(command.images, is_address)) return Done{};
   const Url url(command.images.front());
   if (command.images.size() > 1) return Error{"an address is cut alone; download the parts of a picture first"};
-  const auto tiff = open_remote_picture({.url = url});
+  const auto tiff = open_remote_picture({.source = {.address = url}});
   if (!tiff) return tiff.error();
   command.cut.images = {tiff->file->name()};
   command.cut.raster = cut_raster(*tiff);

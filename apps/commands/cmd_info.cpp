@@ -106,7 +106,7 @@ int run_picture_info(const InfoOptions& options, const Result<PictureFacts>& fac
 }
 
 Result<PictureFacts> look_at_address(const InfoOptions& options) {
-  const auto tiff = open_remote_picture({.url = options.tile_set});
+  const auto tiff = open_remote_picture({.source = {.address = options.tile_set}});
   const auto facts = tiff ? look_at(*tiff, options.place, options.band) : Result<PictureFacts>(tiff.error());
   return facts ? facts : Error{facts.error().message + WaitLimit::advice()};
 }
@@ -121,13 +121,11 @@ int run_info(const InfoOptions& options) {
   if (!options.verify && is_remote(options.tile_set) && leads_to_tiff(options.tile_set, {}, {})) {
     return run_picture_info(options, look_at_address(options));
   }
-  SceneOptions scene;
-  scene.tile_set = options.tile_set;
-  scene.place = options.place;
-  scene.timeout_s = options.timeout_s;
-  scene.numbers.band = options.band.band;
-  scene.numbers.nodata = options.band.nodata;
-  const Result<std::shared_ptr<TileSource>> source = open_any_tiles(scene);
+  const Result<std::shared_ptr<TileSource>> source =
+      open_any_tiles({.address = options.tile_set,
+                      .place = options.place,
+                      .numbers = {.nodata = options.band.nodata, .band = options.band.band},
+                      .timeout_s = options.timeout_s});
   if (!source) return fail("info", source.error().message);
   const std::string& path = options.tile_set.with_secrets();
   TileSetReport report{

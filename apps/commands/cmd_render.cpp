@@ -50,7 +50,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
 
 std::vector<std::string> inputs_of(const SceneOptions& scene) {
   std::vector<std::string> inputs = {scene.objects};
-  for (const Url* url : {&scene.tile_set, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
+  for (const Url* url : {&scene.base.address, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
     inputs.push_back(url->with_secrets());
   }
   for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
@@ -75,7 +75,7 @@ Result<Rendered> render_picture(const RenderCommand& command, bool& all_objects)
 
 int tell_of_missing(const RenderCommand& command, const Rendered& rendered, bool all_objects) {
   const FrameStats& stats = rendered.stats;
-  if (const std::string note = memory_note(command.scene, stats); !note.empty()) {
+  if (const std::string note = memory_note(command.scene.memory_mb, stats); !note.empty()) {
     print_message("terrella render: {}\n", note);
   }
   if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
@@ -116,7 +116,7 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
       });
   sub.get_option("--map")->default_str("off, or on with --places");
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
-  add_timeout_option(sub, command.scene.timeout_s,
+  add_timeout_option(sub, command.scene.base.timeout_s,
                      "Wait at most this many seconds for the description of a server's tiles, and as long for tiles");
   sub.add_flag("--legend", command.legend, "Draw a colour bar with units for each raster of numbers");
   sub.add_flag("--graticule", command.graticule, "Draw lines of latitude and longitude with labels");

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
+#include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/opened_rasters.h"
 #include "apps/open_scene/options/scene_options.h"
-#include "apps/open_scene/scene_layers.h"
-#include "apps/open_scene/scene_numbers.h"
 #include "apps/open_scene/scene_objects.h"
-#include "apps/open_scene/scene_overlays.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
@@ -74,44 +73,41 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   }
 }
 
-LayerRow image_row(LayerId id, const Url& tile_set, const ImageLook& look) {
-  return {.id = id, .name = shown_name(tile_set.without_query()), .bounds = {}, .look = look};
+LayerRow heights_row(const OpenedScene& scene, const Url& address, const OpenedRasters& opened) {
+  return {.kind = LayerKind::heights,
+          .name = shown_name(address.without_query()),
+          .attribution = scene.heights->tiles()->info().attribution,
+          .read_facts = facts_reader(address, {}, {}, opened)};
 }
 
-/// Rows in the order in which add_overlays(), add_image_layers() and add_objects() created the layers.
-std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
-                                 const std::vector<std::optional<NumberFacts>>& overlays, const std::string& of_heights,
-                                 const OpenedRasters& opened) {
-  const TileSetInfo& first = base.tiles->info();
+LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const SourceOptions& base,
+                   const OpenedRasters& opened) {
+  const bool is_base = layer.id == scene.images.front().id;
+  const Url address = layer.address.empty() ? Url(scene.base.name) : layer.address;
+  const DescribedBand band{.band = base.numbers.band, .nodata = base.numbers.nodata};
+  LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .numbers = layer.numbers};
+  if (const auto look = scene.globe->look(layer.id)) row.look = *look;
+  if (const auto attribution = scene.globe->attribution(layer.id)) row.attribution = *attribution;
+  row.read_facts = facts_reader(address, is_base ? base.place : PlaceWords{}, band, opened);
+  if (is_base) row.finest_level = scene.base.grid.max_level;
+  return row;
+}
+
+/// The globe's layers: heights, imagery from bottom to top, objects.
+std::vector<LayerRow> layer_rows(const OpenedScene& scene, const SceneOptions& options,
+                                 const std::optional<GeoRect>& part, const OpenedRasters& opened) {
   std::vector<LayerRow> rows;
-  if (globe.has_relief()) {
-    LayerRow heights{.kind = LayerKind::heights, .name = shown_name(scene.elevation.without_query())};
-    heights.attribution = of_heights;
-    heights.read_facts = facts_reader(scene.elevation, {}, {}, opened);
-    rows.push_back(std::move(heights));
+  if (scene.heights) rows.push_back(heights_row(scene, options.elevation, opened));
+  for (const SceneLayer& layer : scene.images) {
+    rows.push_back(image_row(scene, layer, options.base, opened));
+    if (layer.id == scene.images.front().id) rows.back().bounds = part;
   }
-  std::vector<Url> names = {scene.tile_set.empty() ? Url(first.name) : scene.tile_set};
-  for (const OverlayOption& overlay : scene.overlays) names.push_back(overlay.tile_set);
-  if (!scene.night.empty()) names.push_back(scene.night);
-  if (!scene.clouds.tile_set.empty()) names.push_back(scene.clouds.tile_set);
-  const std::vector<LayerId> ids = globe.imagery();
-  for (std::size_t i = 0; i < ids.size() && i < names.size(); ++i) {
-    const auto look = globe.look(ids[i]);
-    rows.push_back(image_row(ids[i], names[i], look ? *look : ImageLook{}));
-    const DescribedBand band{.band = scene.numbers.band, .nodata = scene.numbers.nodata};
-    rows.back().read_facts = facts_reader(names[i], i == 0 ? scene.place : PlaceWords{}, band, opened);
-    if (const auto attribution = globe.attribution(ids[i])) rows.back().attribution = *attribution;
-    rows.back().numbers = i == 0 ? base.numbers : i <= overlays.size() ? overlays[i - 1] : std::nullopt;
-    if (i > 0) continue;
-    rows.back().bounds = part_with_data(scene.tile_set, first.grid.bounds);
-    rows.back().finest_level = first.grid.max_level;
-  }
-  for (const LayerId id : globe.objects()) {
+  for (const LayerId id : scene.globe->objects()) {
     rows.push_back({.id = id,
                     .kind = LayerKind::objects,
-                    .name = std::filesystem::path(scene.objects).filename().string(),
+                    .name = std::filesystem::path(options.objects).filename().string(),
                     .bounds = {}});
-    if (const auto attribution = globe.attribution(id)) rows.back().attribution = *attribution;
+    if (const auto attribution = scene.globe->attribution(id)) rows.back().attribution = *attribution;
   }
   return rows;
 }
@@ -119,7 +115,7 @@ std::vector<LayerRow> layer_rows(const Globe& globe, const SceneOptions& scene, 
 /// Puts the files of the command line into the list of recent files; the complaint if this fails.
 std::string remember(const SceneOptions& scene) {
   std::vector<std::string> opened;
-  std::vector<Url> urls = {scene.tile_set};
+  std::vector<Url> urls = {scene.base.address};
   for (const OverlayOption& overlay : scene.overlays) urls.push_back(overlay.tile_set);
   urls.push_back(scene.elevation);
   opened.reserve(urls.size() + 1);
@@ -131,69 +127,55 @@ std::string remember(const SceneOptions& scene) {
 }
 
 int view(const ViewOptions& options) {
-  if (const Status found = find_imagery(options.scene); !found) return fail("view", found.error().message);
+  if (const Status found = find_imagery(options.scene.base); !found) return fail("view", found.error().message);
   // The window opens before the cutting, so that a missing display is reported at once.
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail("view", window.error().message);
   // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
   std::vector<std::shared_ptr<GrowingCut>> cuts;
-  SceneOptions layers = options.scene;
-  layers.cuts = &cuts;
+  SceneOptions wanted = options.scene;
+  wanted.base.cuts = &cuts;
   auto opened = std::make_unique<OpenedRasters>();
-  layers.opened = opened.get();
-  auto imagery = open_base(layers);
-  if (!imagery) return fail("view", imagery.error().message);
-  const auto body = scene_body(options.scene, imagery->tiles->info());
-  if (!body) return fail("view", body.error().message);
-  layers.body = *body;
-  auto elevation = open_elevation(layers);
-  if (!elevation) return fail("view", elevation.error().message);
-  if (const Status eye = check_eye(options.scene, *body, options.scene.size); !eye) {
-    throw CLI::ValidationError("--camera", eye.error().message);
-  }
-  check_map(options.scene, *body);
-  GlobeOptions globe_options_with_sky = globe_options(options.scene, *body);
-  add_sky_data(globe_options_with_sky, true);  // the user may choose a time
-  add_label_font(globe_options_with_sky);
-  auto globe = create_globe(globe_options_with_sky, *imagery, *elevation);
-  if (!globe) return fail("view", globe.error().message);
-  set_paper_texturing(**globe, options.scene);
-  const auto overlays = add_overlays(**globe, layers);
-  if (!overlays) return fail("view", overlays.error().message);
-  if (const Status added = add_image_layers(**globe, layers); !added) return fail("view", added.error().message);
-  if (const Result<bool> added = add_objects(**globe, options.scene); !added)
-    return fail("view", added.error().message);
+  wanted.base.opened = opened.get();
+  auto scene = open_scene(wanted, [&](const Body& body) -> Result<GlobeOptions> {
+    check_map(options.scene, body);
+    GlobeOptions with_sky = globe_options(options.scene, body);
+    add_sky_data(with_sky, true);  // the user may choose a time
+    add_label_font(with_sky);
+    return with_sky;
+  });
+  if (!scene) return fail("view", scene.error().message);
   if (StopSignals::came()) return fail("view", "stopped");
   signals.reset();
   (*window)->show();
   if (options.full_screen) (*window)->toggle_full_screen();
-  const Camera wanted =
-      first_camera(options.scene, *body, imagery->tiles->info().grid.bounds, (*window)->framebuffer());
+  const auto part = part_with_data(options.scene.base.address, scene->base.grid.bounds);
+  const Camera asked =
+      options.scene.camera.value_or(default_camera(part, scene->body.ellipsoid, (*window)->framebuffer()));
   // Later heights raise the eye with the ground, as everywhere in the window.
-  const Camera start = out_of_ground(wanted, 0.0, may_be_underground(options.scene));
-  tell_of_move("view", wanted, start);
-  const std::string of_heights = *elevation ? (*elevation)->tiles()->info().attribution : std::string();
-  auto rows = layer_rows(**globe, options.scene, *imagery, *overlays, of_heights, *opened);
+  const Camera start = out_of_ground(asked, 0.0, may_be_underground(options.scene));
+  tell_of_move("view", asked, start);
+  auto rows = layer_rows(*scene, options.scene, part, *opened);
   const std::vector<std::weak_ptr<GrowingCut>> growing(cuts.begin(), cuts.end());
   // From here on the globe alone owns what the layers read, so that removing a layer ends its work.
-  layers.opened = nullptr;
   opened.reset();
-  imagery->tiles.reset();
   cuts.clear();
+  SourceOptions files = options.scene.base;
+  files.body = scene->body;
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .print_panels = options.print_panels,
                                      .cuts = growing,
                                      .layers = std::move(rows),
-                                     .heights = *elevation,
+                                     .heights = scene->heights,
                                      .places = options.scene.places,
-                                     .files = layers,
+                                     .files = files,
                                      .map = options.scene.map.value_or(options.kept.map && !options.scene.unlit),
                                      .kept = options.kept,
                                      .first_run = options.first_run,
                                      .message = options.message.empty() ? remember(options.scene) : options.message};
-  Viewer(**window, **globe, viewer_options).run();
+  Viewer(**window, *scene->globe, viewer_options).run();
   return kDone;
 }
 

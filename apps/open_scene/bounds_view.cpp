@@ -7,6 +7,7 @@
 #include "geo/longitudes.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/tile_lister.h"
+#include "view/view_limits.h"
 
 namespace terrella {
 namespace {
@@ -70,6 +71,16 @@ Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, do
   camera.eye = {.lat = Angle::degrees(lat_deg), .lon = bounds.west + 0.5 * width_of(bounds)};
   camera.eye.height_m = std::max(kNearest_m, 0.5 * span_m / std::tan(0.5 * fov_y.rad()));
   return camera;
+}
+
+Camera default_camera(const std::optional<GeoRect>& part, const Ellipsoid& body, Viewport picture) {
+  Camera whole;
+  whole.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
+  whole.eye.height_m = whole_globe_height_m(body, whole.fov_y, picture);
+  if (!part) return whole;
+  Camera over = camera_over(*part, body, whole.fov_y, double(picture.width_px) / picture.height_px);
+  over.eye.height_m = std::min(over.eye.height_m, whole.eye.height_m);
+  return over;
 }
 
 }  // namespace terrella

@@ -21,5 +21,8 @@ namespace terrella {
 /// Looks straight down on the middle, from a height that shows the whole rectangle. `aspect` is the picture's width
 /// divided by its height.
 [[nodiscard]] Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect);
+/// The camera without --camera: straight down on the part with data, else on 20°N 0°E with the whole globe filling the
+/// picture.
+[[nodiscard]] Camera default_camera(const std::optional<GeoRect>& part, const Ellipsoid& body, Viewport picture);
 
 }  // namespace terrella

@@ -50,15 +50,15 @@ class DescribedSource : public TileSource {
   TileSetInfo info_;
 };
 
-Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, const CutProgress& told) {
-  if (names_mosaic(options.tile_set)) {
+Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, const CutProgress& told) {
+  if (names_mosaic(options.address)) {
     auto tiles = open_many_rasters(options, MosaicPixels::as_stored);
     if (!tiles) return tiles.error();
     return std::shared_ptr<TileSource>(*std::move(tiles));
   }
-  if (is_remote(options.tile_set)) return open_remote(options);
+  if (is_remote(options.address)) return open_remote(options);
   if (const Status found = find_imagery(options); !found) return found.error();
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+  const fs::path path = options.address.empty() ? data_file("earth.gpkg") : fs::path(options.address.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
   const bool picture = is_picture(path);
   if (!picture && options.place != PlaceWords{}) {
@@ -81,11 +81,12 @@ Result<std::shared_ptr<TileSource>> open_named(const SceneOptions& options, cons
 }
 
 /// Options for opening the heights, whose cache stands beside a given --cache.
-SceneOptions heights_options(const SceneOptions& options) {
-  SceneOptions heights = options_beside(options, options.elevation);
+SourceOptions heights_options(const SceneOptions& options) {
+  SourceOptions heights = options_beside(options.base, options.elevation);
   heights.numbers.heights = true;
-  if (!options.cache.empty() && options.cache != "off") {
-    const fs::path cache = options.cache;
+  const std::string& given = options.base.cache;
+  if (!given.empty() && given != "off") {
+    const fs::path cache = given;
     heights.cache = (cache.parent_path() / (cache.stem().string() + "-heights.gpkg")).string();
   }
   return heights;
@@ -124,31 +125,31 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
   return Error{"no place for the cache: neither XDG_CACHE_HOME nor HOME is set; set one or give --cache"};
 }
 
-Status find_imagery(const SceneOptions& options) {
-  if (is_remote(options.tile_set) || names_mosaic(options.tile_set)) return Done{};
-  const fs::path path = options.tile_set.empty() ? data_file("earth.gpkg") : fs::path(options.tile_set.with_secrets());
+Status find_imagery(const SourceOptions& options) {
+  if (is_remote(options.address) || names_mosaic(options.address)) return Done{};
+  const fs::path path = options.address.empty() ? data_file("earth.gpkg") : fs::path(options.address.with_secrets());
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
   return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 
-std::string name_of(const SceneOptions& options) {
-  return options.tile_set.empty() ? "the included Earth" : options.tile_set.redacted();
+std::string name_of(const SourceOptions& options) {
+  return options.address.empty() ? "the included Earth" : options.address.redacted();
 }
 
 /// Fails if the tiles are of another body than the globe.
-Status check_body(const SceneOptions& options, const TileSetInfo& info) {
+Status check_body(const SourceOptions& options, const TileSetInfo& info) {
   if (!options.body || info.body.empty()) return Done{};
   const auto said = parse_body(info.body);
   if (said && !are_two_bodies(*said, *options.body)) return Done{};
   const std::string radius = said ? fmt::format(" (radius {:.0f} m)", said->ellipsoid.a_m()) : std::string();
   return Error{fmt::format("{}: its tiles are of the body {}{}, and the globe is {} (radius {:.0f} m); {}",
                            name_of(options), info.body, radius, options.body->name, options.body->ellipsoid.a_m(),
-                           options.tile_set.empty() ? "name a tile set of that body"
-                                                    : "say which it is with --body, or leave this tile set out")};
+                           options.address.empty() ? "name a tile set of that body"
+                                                   : "say which it is with --body, or leave this tile set out")};
 }
 
-Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, const CutProgress& progress) {
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options, const CutProgress& progress) {
   auto tiles = open_named(options, progress);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
@@ -167,37 +168,36 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options, 
   return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
 }
 
-Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_imagery(const SourceOptions& options) {
   auto tiles = open_any_tiles(options);
   if (!tiles || !(*tiles)->info().numbers) return tiles;
   return Error{
       fmt::format("{0}: its tiles are numbers, not pictures; name them as TILESET or with --overlay, or heights with "
                   "--elevation {0}",
-                  options.tile_set.redacted())};
+                  options.address.redacted())};
 }
 
 /// Opens tiles whose numbers are in colours, as --elevation-encoding says.
-Result<std::shared_ptr<TileSource>> open_encoded(const SceneOptions& heights, const NumberInfo& encoding) {
-  if (is_remote(heights.tile_set)) {
-    SceneOptions encoded = heights;
-    encoded.remote.numbers = encoding;
-    return open_remote(encoded);
+Result<std::shared_ptr<TileSource>> open_encoded(SourceOptions heights, const NumberInfo& encoding) {
+  if (is_remote(heights.address)) {
+    heights.remote.numbers = encoding;
+    return open_remote(heights);
   }
-  auto stored = open_stored_tile_set(heights.tile_set.with_secrets());
+  auto stored = open_stored_tile_set(heights.address.with_secrets());
   if (!stored) return stored.error();
   TileSetInfo info = (*stored)->info();
   info.numbers = encoding;
   auto tiles =
-      as_geodetic(std::make_unique<DescribedSource>(*std::move(stored), std::move(info)), heights.tile_set.redacted());
+      as_geodetic(std::make_unique<DescribedSource>(*std::move(stored), std::move(info)), heights.address.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
 /// Opens the tiles of --elevation: of a tile set, of a raster, or of many.
 Result<std::shared_ptr<TileSource>> open_height_tiles(const SceneOptions& options) {
-  const SceneOptions heights = heights_options(options);
-  const bool many = names_mosaic(heights.tile_set);
-  if (many || is_picture(heights.tile_set.with_secrets())) {
+  const SourceOptions heights = heights_options(options);
+  const bool many = names_mosaic(heights.address);
+  if (many || is_picture(heights.address.with_secrets())) {
     auto tiles = many ? open_many_rasters(heights, MosaicPixels::heights) : open_height_raster(heights);
     if (!tiles) return tiles.error();
     return std::shared_ptr<TileSource>(*std::move(tiles));

@@ -17,18 +17,18 @@ namespace terrella {
 /// with `progress`. --projection and --latitude
 /// override the tile set's description. The error names the input. Throws BrokenInstallation. thread: any, one at a
 /// time
-[[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SceneOptions& options,
+[[nodiscard]] Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options,
                                                                  const CutProgress& progress = {});
 
 /// Like open_any_tiles(), but refuses tiles of numbers and says how to use them. thread: main
-[[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SceneOptions& options);
+[[nodiscard]] Result<std::shared_ptr<TileSource>> open_imagery(const SourceOptions& options);
 
 /// Opens the heights of --elevation; nullopt if the option is empty. The error names the input. Throws
 /// BrokenInstallation. thread: main
 [[nodiscard]] Result<std::optional<ElevationSource>> open_elevation(const SceneOptions& options);
 
 /// Checks quickly that TILESET exists, before slow work starts. Throws BrokenInstallation. thread: any
-[[nodiscard]] Status find_imagery(const SceneOptions& options);
+[[nodiscard]] Status find_imagery(const SourceOptions& options);
 
 /// True for a file with the first bytes or the name of a JPEG, PNG, WebP or TIFF. thread: any
 [[nodiscard]] bool is_picture(const std::filesystem::path& path);

@@ -61,12 +61,12 @@ struct ScratchTiles {
 
 void print_remark(const std::string& remark) { print_message("terrella: {}\n", remark); }
 
-std::string body_text(const SceneOptions& options) {
+std::string body_text(const SourceOptions& options) {
   return options.body && options.body->name != earth().name ? options.body->name : std::string();
 }
 
 /// The cut compares the given body, latitudes and place with the picture's own.
-CutOptions cut_options(const fs::path& picture, const SceneOptions& options, bool is_numbers) {
+CutOptions cut_options(const fs::path& picture, const SourceOptions& options, bool is_numbers) {
   CutOptions cut;
   cut.body = body_text(options);
   cut.latitude = options.latitude;
@@ -93,7 +93,7 @@ Result<Tiles> cut_and_open(CutOptions cut, const fs::path& folder, const CutProg
 }
 
 /// Cuts a picture into a folder, or begins to.
-Result<Tiles> cut_into(CutOptions cut, const fs::path& folder, const SceneOptions& options, const CutProgress& told) {
+Result<Tiles> cut_into(CutOptions cut, const fs::path& folder, const SourceOptions& options, const CutProgress& told) {
   if (options.cuts == nullptr) return cut_and_open(std::move(cut), folder, told);
   const auto path = cache_path(cut, folder);
   if (!path) return path.error();
@@ -108,7 +108,7 @@ Result<Tiles> cut_into(CutOptions cut, const fs::path& folder, const SceneOption
 }
 
 /// Opens a raster that shows at once. Its tiles are on the grid of its cut, so that its pixels are copied.
-Result<DirectFile> open_in_place(const PictureFile& raster, const CutOptions& cut, const SceneOptions& options) {
+Result<DirectFile> open_in_place(const PictureFile& raster, const CutOptions& cut, const SourceOptions& options) {
   auto grid = grid_of_pixels(cut, raster);
   if (!grid) return grid.error();
   if (*grid) (*grid)->reduced = false;
@@ -118,7 +118,7 @@ Result<DirectFile> open_in_place(const PictureFile& raster, const CutOptions& cu
 }
 
 /// Opens the picture where it lies; no tiles if it must be cut. Sets how it is cut.
-Result<DirectFile> try_in_place(const fs::path& picture, const SceneOptions& options, CutOptions& cut) {
+Result<DirectFile> try_in_place(const fs::path& picture, const SourceOptions& options, CutOptions& cut) {
   std::optional<PictureFile> raster;
   if (picture_kind(picture) == PictureKind::raster) {
     auto file = measure_raster(picture);
@@ -131,7 +131,7 @@ Result<DirectFile> try_in_place(const fs::path& picture, const SceneOptions& opt
 
 }  // namespace
 
-Result<Tiles> open_picture(const fs::path& picture, const SceneOptions& options, const CutProgress& told) {
+Result<Tiles> open_picture(const fs::path& picture, const SourceOptions& options, const CutProgress& told) {
   CutOptions cut;
   auto direct = try_in_place(picture, options, cut);
   if (!direct) return direct.error();

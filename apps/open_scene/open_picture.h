@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/options/source_options.h"
 #include "base/result.h"
 #include "tiles/tile_source.h"
 
@@ -16,10 +16,10 @@ using CutProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Opens a picture. A TIFF that shows at once is read in place ((streaming/warp/direct_tiles.h)), and nothing of it is
 /// cached. Other pictures are cut into the cache on first use, with a progress bar on standard error; `progress`
-/// replaces the bar. With SceneOptions::cuts, a picture that is not cut yet opens at once, and its cut goes on in the
+/// replaces the bar. With SourceOptions::cuts, a picture that is not cut yet opens at once, and its cut goes on in the
 /// background. The error names the picture. thread: any, one at a time
 [[nodiscard]] Result<std::shared_ptr<TileSource>> open_picture(const std::filesystem::path& picture,
-                                                               const SceneOptions& options,
+                                                               const SourceOptions& options,
                                                                const CutProgress& progress);
 
 }  // namespace terrella

@@ -37,7 +37,7 @@ std::atomic<int>& left_out() {
 }
 
 /// The file in the cache folder for a mosaic's headers and overview; empty without a cache.
-fs::path store_file(const SceneOptions& options, const fs::path& input, MosaicPixels pixels) {
+fs::path store_file(const SourceOptions& options, const fs::path& input, MosaicPixels pixels) {
   if (options.cache == "off") return {};
   const auto folder = picture_cache_folder(options.cache);
   if (!folder || !can_write_into(*folder)) {
@@ -52,7 +52,7 @@ fs::path store_file(const SceneOptions& options, const fs::path& input, MosaicPi
                                name_hash(fmt::format("{}|{}", whole.string(), static_cast<int>(pixels))));
 }
 
-MosaicOptions mosaic_options(const SceneOptions& options, const fs::path& input, MosaicPixels pixels) {
+MosaicOptions mosaic_options(const SourceOptions& options, const fs::path& input, MosaicPixels pixels) {
   MosaicOptions mosaic;
   mosaic.pixels = pixels;
   if (options.body) mosaic.figure.body = *options.body;
@@ -100,8 +100,8 @@ bool names_mosaic(const Url& tile_set) {
   return !has_scheme(tile_set.with_secrets()) && is_mosaic(tile_set.with_secrets());
 }
 
-Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SceneOptions& options, MosaicPixels pixels) {
-  const fs::path input = options.tile_set.with_secrets();
+Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SourceOptions& options, MosaicPixels pixels) {
+  const fs::path input = options.address.with_secrets();
   if (options.place != PlaceWords{}) {
     return Error{fmt::format(
         "{}: --crs, --bounds and --west place one picture, and this names many; write a JSON file with \"mosaic\": "
@@ -113,8 +113,8 @@ Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SceneOptions& optio
   return tiles;
 }
 
-Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SceneOptions& options) {
-  const fs::path input = options.tile_set.with_secrets();
+Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SourceOptions& options) {
+  const fs::path input = options.address.with_secrets();
   RasterOptions reading;
   reading.heights = true;
   // A picture in colours is refused before anything is drawn.

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/options/source_options.h"
 #include "base/result.h"
 #include "streaming/mosaic/mosaic_tiles.h"
 #include "tiles/tile_source.h"
@@ -14,11 +14,11 @@ namespace terrella {
 
 /// Opens TILESET, which names many rasters, as one tile set. Headers and overview are kept in the cache folder, unless
 /// --cache is off. Files that cannot be read are named on standard error. The error names the input. thread: any
-[[nodiscard]] Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SceneOptions& options, MosaicPixels pixels);
+[[nodiscard]] Result<std::unique_ptr<MosaicTiles>> open_many_rasters(const SourceOptions& options, MosaicPixels pixels);
 
 /// Opens one raster file as heights in metres, the same way. A file that states no place is a whole planet from -180°
 /// on, if it is 2:1 or has nodes on both poles. thread: any
-[[nodiscard]] Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SceneOptions& options);
+[[nodiscard]] Result<std::unique_ptr<MosaicTiles>> open_height_raster(const SourceOptions& options);
 
 /// Heights for the whole planet from heights for a part: 0 m beyond it, with an even slope at its edge. Returns
 /// heights for the whole planet unchanged. thread: any

@@ -35,19 +35,19 @@ constexpr std::size_t kMaxNameBytes = 60;
 
 /// Makes a file name from the address without secrets, and a hash of the rest. A new key or password does not make a
 /// new source.
-std::string cache_name(const SceneOptions& options) {
+std::string cache_name(const SourceOptions& options) {
   std::string name;
-  for (const char c : options.tile_set.without_query().substr(0, kMaxNameBytes)) {
+  for (const char c : options.address.without_query().substr(0, kMaxNameBytes)) {
     name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
   }
   const RemoteOptions& r = options.remote;
-  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.tile_set), r.layer, r.matrix_set,
+  std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.address), r.layer, r.matrix_set,
                                   r.style, r.time, r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
   if (options.projection == Projection::web_mercator) whole += "|web-mercator";
   return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
 }
 
-Result<fs::path> cache_file(const SceneOptions& options) {
+Result<fs::path> cache_file(const SourceOptions& options) {
   if (!options.cache.empty()) return fs::path(options.cache);
   const auto folder = picture_cache_folder({});
   if (!folder) return folder.error();
@@ -58,31 +58,27 @@ Result<fs::path> cache_file(const SceneOptions& options) {
 }
 
 /// Opens a TIFF on a server.
-Result<std::shared_ptr<TileSource>> open_tiff(const SceneOptions& options, const HttpOptions& http) {
-  RemoteTiffWish wish{.url = options.tile_set, .headers = options.remote.headers, .http = http};
+Result<std::shared_ptr<TileSource>> open_tiff(const SourceOptions& options, const HttpOptions& http) {
+  RemoteTiffWish wish{.source = options, .http = http};
   if (options.cache != "off") {
     const auto file = cache_file(options);
     if (!file) say_without_cache(file.error());
     if (file) wish.cache = *file;
   }
   wish.may_replace_cache = options.cache.empty();
-  wish.cache_size_mb = options.cache_size_mb;
   wish.on_cache_failed = say_without_cache;
-  wish.offline = options.offline;
-  wish.direct = direct_options(options);
-  wish.numbers = options.numbers;
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();
   if (options.opened != nullptr) {
-    options.opened->remote.insert_or_assign(options.tile_set.with_secrets(), opened->tiff);
+    options.opened->remote.insert_or_assign(options.address.with_secrets(), opened->tiff);
   }
   for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);
-  auto tiles = tiles_of(*std::move(opened), wish.direct);
+  auto tiles = tiles_of(*std::move(opened), direct_options(options));
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
-Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_offline(const SourceOptions& options) {
   if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
   const auto file = cache_file(options);
   if (!file) return file.error();
@@ -91,9 +87,9 @@ Result<std::shared_ptr<TileSource>> open_offline(const SceneOptions& options) {
     return Error{
         fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
                     "--offline",
-                    options.tile_set.redacted(), file->string())};
+                    options.address.redacted(), file->string())};
   }
-  if (version_in_key(read_cache_source(*file), options.tile_set)) return open_tiff(options, {});
+  if (version_in_key(read_cache_source(*file), options.address)) return open_tiff(options, {});
   auto tiles = open_tile_set(*file);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
@@ -114,7 +110,7 @@ std::shared_ptr<TileCache> go_without(const Error& why) {
 }
 
 /// Opens the cache; nullptr if the cache is off or not writable. Refuses a file of another kind.
-Result<std::shared_ptr<TileCache>> cache_of(const SceneOptions& options, const RemoteTileSet& set) {
+Result<std::shared_ptr<TileCache>> cache_of(const SourceOptions& options, const RemoteTileSet& set) {
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file(options);
   if (!file) return go_without(file.error());
@@ -130,8 +126,8 @@ bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid)
   return root && *root;
 }
 
-bool is_template(const SceneOptions& options) {
-  return options.tile_set.with_secrets().find("{z}") != std::string::npos;
+bool is_template(const SourceOptions& options) {
+  return options.address.with_secrets().find("{z}") != std::string::npos;
 }
 
 /// Compares a few tiles of a URL template before the first picture, because a template states no grid. A wrong grid is
@@ -149,13 +145,13 @@ Status check_template_grid(const RemoteTileSet& set, const HttpOptions& http) {
   return Error{fmt::format("{}: {}", set.info.name, check->advice)};
 }
 
-Result<std::shared_ptr<TileSource>> open_online(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_online(const SourceOptions& options) {
   HttpOptions http = network_options();
-  if (leads_to_tiff(options.tile_set, options.remote.headers, http)) return open_tiff(options, http);
+  if (leads_to_tiff(options.address, options.remote.headers, http)) return open_tiff(options, http);
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
-  auto set = fetch_description(options.tile_set, remote, http);
+  auto set = fetch_description(options.address, remote, http);
   if (!set) return set.error();
   http = within_limits(http, *set);
   auto cache = cache_of(options, *set);
@@ -164,14 +160,14 @@ Result<std::shared_ptr<TileSource>> open_online(const SceneOptions& options) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
   // The cache holds the tiles in the server's projection.
-  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.tile_set.redacted());
+  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.address.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
 }  // namespace
 
-Result<std::shared_ptr<TileSource>> open_remote(const SceneOptions& options) {
+Result<std::shared_ptr<TileSource>> open_remote(const SourceOptions& options) {
   if (options.offline) return open_offline(options);
   const WaitLimit limit(options.timeout_s);
   auto opened = open_online(options);

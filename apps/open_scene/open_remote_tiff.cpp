@@ -30,9 +30,10 @@ Status discard_old_version(const RemoteTiffWish& wish) {
     return Error{
         fmt::format("{}: holds parts of an earlier version of {}, which has changed on the server since; delete "
                     "it, or name another file",
-                    wish.cache.string(), wish.url.redacted())};
+                    wish.cache.string(), wish.source.address.redacted())};
   }
-  print_message("terrella: {}: the file has changed on the server, so its cache is begun anew\n", wish.url.redacted());
+  print_message("terrella: {}: the file has changed on the server, so its cache is begun anew\n",
+                wish.source.address.redacted());
   for (const char* ending : {"", "-wal", "-shm"}) {
     std::error_code ignored;
     fs::remove(wish.cache.string() + ending, ignored);
@@ -43,10 +44,11 @@ Status discard_old_version(const RemoteTiffWish& wish) {
 /// Opens the cache; null if it cannot be written.
 Result<std::shared_ptr<TileCache>> cache_of_tiff(const RemoteTiffWish& wish, const std::string& held_key,
                                                  const std::string& key) {
-  if (key != held_key && version_in_key(held_key, wish.url)) {
+  if (key != held_key && version_in_key(held_key, wish.source.address)) {
     if (Status discarded = discard_old_version(wish); !discarded) return discarded.error();
   }
-  auto cache = open_cache("terrella", wish.cache, range_cache_info(), key, wish.cache_size_mb, wish.on_cache_failed);
+  auto cache =
+      open_cache("terrella", wish.cache, range_cache_info(), key, wish.source.cache_size_mb, wish.on_cache_failed);
   if (cache) return *std::move(cache);
   if (!cache.error().cannot_write) return cache.error();
   say_without_cache(cache.error());
@@ -54,7 +56,10 @@ Result<std::shared_ptr<TileCache>> cache_of_tiff(const RemoteTiffWish& wish, con
 }
 
 Result<std::shared_ptr<RemoteFile>> open_remote_file(const RemoteTiffWish& wish) {
-  RemoteFileOptions options{.url = wish.url, .headers = wish.headers, .http = wish.http, .offline = wish.offline};
+  RemoteFileOptions options{.url = wish.source.address,
+                            .headers = wish.source.remote.headers,
+                            .http = wish.http,
+                            .offline = wish.source.offline};
   options.go_on = may_wait;
   if (!wish.cache.empty()) {
     options.held_key = read_cache_source(wish.cache);
@@ -100,9 +105,9 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
   auto tiff = open_remote_picture(wish);
   if (!tiff) return tiff.error();
   const PictureFile& picture = tiff->picture;
-  auto placed = place_picture(picture, wish.direct.place);
+  DirectOptions direct = direct_options(wish.source);
+  auto placed = place_picture(picture, direct.place);
   if (!placed) return placed.error();
-  DirectOptions direct = wish.direct;
   if (wish.any_body) direct.body = placed->crs ? stated_body(*placed->crs) : std::string();
   const bool placeless = !placed->projected;
   auto place = place_raster(*std::move(placed), picture, direct);
@@ -114,7 +119,8 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
                     tiff->file->name(), picture.width_px, picture.height_px)};
   }
   if (placeless) (*place)->remarks.push_back(taken_for_planet(tiff->file->name()));
-  auto raster = RemoteTiff::make(tiff->file, picture.raster, (*place)->at, reading_of(*picture.raster, wish.numbers));
+  auto raster =
+      RemoteTiff::make(tiff->file, picture.raster, (*place)->at, reading_of(*picture.raster, wish.source.numbers));
   if (!raster) return raster.error();
   return OpenedRemoteTiff{*std::move(tiff), *std::move(raster), **std::move(place), direct.body};
 }
@@ -163,7 +169,7 @@ CutRaster cut_raster(const RemotePicture& tiff) {
   return cut;
 }
 
-DirectOptions direct_options(const SceneOptions& options) {
+DirectOptions direct_options(const SourceOptions& options) {
   DirectOptions direct{.body = {}, .latitude = options.latitude, .place = options.place};
   if (options.body && options.body->name != earth().name) direct.body = options.body->name;
   return direct;

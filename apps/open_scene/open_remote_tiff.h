@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/open_scene/options/number_options.h"
-#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/options/source_options.h"
 #include "base/result.h"
 #include "streaming/cut.h"
 #include "streaming/http/http_fetcher.h"
@@ -18,17 +17,12 @@ namespace terrella {
 
 /// A TIFF on a server, and how it is read.
 struct RemoteTiffWish {
-  Url url;
-  std::vector<std::string> headers{};  ///< may be secret
+  SourceOptions source;
   HttpOptions http{};
   std::filesystem::path cache{};                        ///< file of the cache; empty: none
   bool may_replace_cache = false;                       ///< the cache of an earlier version of the TIFF may be deleted
-  std::size_t cache_size_mb = 0;                        ///< 0: no limit
   std::function<void(const Error&)> on_cache_failed{};  ///< see CacheOptions::on_failed
-  bool offline = false;
-  DirectOptions direct{};
-  bool any_body = false;  ///< the TIFF's own body counts, not that of `direct`
-  NumberOptions numbers{};
+  bool any_body = false;                                ///< the TIFF's own body counts, not that of `source`
 };
 
 /// A TIFF on a server whose directories are read.
@@ -66,7 +60,7 @@ struct OpenedRemoteTiff {
 /// Lets `cut` read a TIFF on a server in place of a file. thread: any
 [[nodiscard]] CutRaster cut_raster(const RemotePicture& tiff);
 
-/// The user's statements about a raster, from the scene's options. thread: any
-[[nodiscard]] DirectOptions direct_options(const SceneOptions& options);
+/// The user's statements about a raster. thread: any
+[[nodiscard]] DirectOptions direct_options(const SourceOptions& options);
 
 }  // namespace terrella

@@ -160,10 +160,10 @@ Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOpt
   return layer;
 }
 
-Result<ImageryLayer> open_layer(const SceneOptions& options) {
+Result<ImageryLayer> open_layer(const SourceOptions& options) {
   auto tiles = open_any_tiles(options);
   if (!tiles) return tiles.error();
-  const std::string name = options.tile_set.redacted();
+  const std::string name = options.address.redacted();
   const bool numbers = (*tiles)->info().numbers.has_value();
   if (!numbers && options.numbers.ask_for_numbers()) return wrong_for_pictures(name);
   if (numbers && options.numbers.stretch.size() > 1) {
@@ -174,21 +174,6 @@ Result<ImageryLayer> open_layer(const SceneOptions& options) {
     print_message("terrella: {}: {}\n", name, look_text(*layer->numbers, *layer->look.numbers));
   }
   return layer;
-}
-
-Result<ImageryLayer> open_base(SceneOptions options) {
-  if (options.tile_set.empty()) options.numbers = {};
-  return open_layer(options);
-}
-
-Result<std::unique_ptr<Globe>> create_globe(const GlobeOptions& options, const ImageryLayer& base,
-                                            std::optional<ElevationSource> elevation) {
-  if (!base.numbers) return Globe::create(options, base.tiles, std::move(elevation));
-  auto globe = Globe::create(options);
-  if (!globe) return globe;
-  if (const auto added = (*globe)->add_imagery(base.tiles, base.look); !added) return added.error();
-  if (Status raised = (*globe)->set_elevation(elevation); !raised) return raised.error();
-  return globe;
 }
 
 std::string legend_title(const std::string& name, const NumberFacts& facts) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/options/source_options.h"
 #include "base/result.h"
 #include "globe/globe.h"
 #include "streaming/numbers/number_statistics.h"
@@ -41,19 +41,11 @@ struct ImageryLayer {
 
 /// Opens TILESET as a layer, with pictures or numbers. Numbers get the stretch and the colours of the options, and one
 /// line on standard error says which. The error names the input. Throws BrokenInstallation. thread: main
-[[nodiscard]] Result<ImageryLayer> open_layer(const SceneOptions& options);
-
-/// open_layer() for the layer at the bottom. The included Earth ignores the options of numbers, which are its
-/// overlays'. thread: main
-[[nodiscard]] Result<ImageryLayer> open_base(SceneOptions options);
+[[nodiscard]] Result<ImageryLayer> open_layer(const SourceOptions& options);
 
 /// Makes the layer of tiles that are open already. `wants_statistics`: for a panel with a histogram. thread: any
 [[nodiscard]] Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOptions& options,
                                             const std::string& name, bool wants_statistics);
-
-/// Makes a globe with the layer at the bottom. thread: that of the OpenGL context
-[[nodiscard]] Result<std::unique_ptr<Globe>> create_globe(const GlobeOptions& options, const ImageryLayer& base,
-                                                          std::optional<ElevationSource> elevation);
 
 /// The quantity, or the layer's name if that is unknown. thread: any
 [[nodiscard]] std::string legend_title(const std::string& name, const NumberFacts& facts);

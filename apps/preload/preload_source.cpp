@@ -75,11 +75,9 @@ Result<std::shared_ptr<const TilePlan>> plan_spans(PlannedTiff& tiff, const Tile
 
 Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, const HttpOptions& http,
                                 const PreloadTiff& asked) {
-  const RemoteTiffWish wish{.url = source,
-                            .headers = remote.headers,
+  const RemoteTiffWish wish{.source = {.address = source, .remote = remote, .cache_size_mb = asked.cache_size_mb},
                             .http = http,
                             .cache = asked.cache,
-                            .cache_size_mb = asked.cache_size_mb,
                             .any_body = true};
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();

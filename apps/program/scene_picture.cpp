@@ -2,22 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <CLI/Error.hpp>
 #include <algorithm>
 #include <chrono>
 #include <deque>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
-#include "apps/open_scene/open_imagery.h"
-#include "apps/open_scene/scene_layers.h"
-#include "apps/open_scene/scene_numbers.h"
+#include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/scene_objects.h"
-#include "apps/open_scene/scene_overlays.h"
 #include "apps/process/console.h"
 #include "apps/process/process.h"
 #include "apps/process/stop_signals.h"
@@ -74,7 +71,7 @@ void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chro
 void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
   constexpr int kMostMoves = 4;  // finer heights move the ground less and less
   const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-      std::chrono::duration<double>(command.scene.timeout_s));
+      std::chrono::duration<double>(command.scene.base.timeout_s));
   const auto deadline = std::chrono::steady_clock::now() + limit;
   const bool may_be_under = may_be_underground(command.scene);
   Camera camera = out_of_ground(wanted, 0.0, may_be_under);
@@ -97,18 +94,14 @@ Status check_drawing_memory(Viewport size) {
                       fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
 }
 
-/// The layers of numbers, the highest first. Imagery has the order of add_overlays().
-std::vector<LegendItem> legend_of(const Globe& globe, const SceneOptions& scene, const ImageryLayer& base,
-                                  const std::vector<std::optional<NumberFacts>>& overlays) {
+/// The layers of numbers, the highest first.
+std::vector<LegendItem> legend_of(const OpenedScene& scene) {
   std::vector<LegendItem> items;
-  const std::vector<LayerId> ids = globe.imagery();
-  for (std::size_t i = std::min(ids.size(), overlays.size() + 1); i-- > 0;) {
-    const auto& facts = i == 0 ? base.numbers : overlays[i - 1];
-    const auto look = globe.look(ids[i]);
-    if (!facts || !look || !look->numbers) continue;
-    const Url& named = i == 0 ? scene.tile_set : scene.overlays[i - 1].tile_set;
-    const std::string name = std::filesystem::path(named.without_query()).stem().string();
-    items.push_back({.title = legend_title(name, *facts), .unit = facts->unit, .look = *look->numbers});
+  for (const SceneLayer& layer : scene.images | std::views::reverse) {
+    const auto look = layer.numbers ? scene.globe->look(layer.id) : Result<ImageLook>(Error{});
+    if (!look || !look->numbers) continue;
+    const std::string name = std::filesystem::path(layer.address.without_query()).stem().string();
+    items.push_back({.title = legend_title(name, *layer.numbers), .unit = layer.numbers->unit, .look = *look->numbers});
   }
   return items;
 }
@@ -138,59 +131,34 @@ GlobeOptions picture_options(const RenderCommand& command, const Body& body) {
 /// The globe is destroyed before the context.
 struct ScenePicture::Parts {
   RenderCommand command;
-  Body body = earth();
-  ImageryLayer base{};
-  std::vector<std::optional<NumberFacts>> overlays{};
-  bool all_objects = true;
-  bool checked_fills = false;
   std::unique_ptr<HeadlessContext> context{};
   std::unique_ptr<MapPainter> map{};
-  std::unique_ptr<Globe> globe{};
+  OpenedScene scene{};
+  bool checked_fills = false;
   std::unique_ptr<OffscreenTarget> target{};
 
-  Status open_globe();
-  Status add_layers();
+  Result<GlobeOptions> prepare(const Body& body);
+  Status open();
   void check_fills();
 };
 
-Status ScenePicture::Parts::open_globe() {
-  Result<ImageryLayer> imagery = open_base(command.scene);
-  if (!imagery) return imagery.error();
-  base = *std::move(imagery);
-  const Result<Body> found = scene_body(command.scene, base.tiles->info());
-  if (!found) return found.error();
-  body = *found;
-  SceneOptions layers = command.scene;
-  layers.body = body;
-  Result<std::optional<ElevationSource>> elevation = open_elevation(layers);
-  if (!elevation) return elevation.error();
-  if (const Status eye = check_eye(command.scene, body, command.scene.size); !eye) {
-    throw CLI::ValidationError("--camera", eye.error().message);
-  }
-  if (Status room = check_drawing_memory(command.scene.size); !room) return room;
+Result<GlobeOptions> ScenePicture::Parts::prepare(const Body& body) {
+  if (Status room = check_drawing_memory(command.scene.size); !room) return room.error();
   Result<std::unique_ptr<HeadlessContext>> made = HeadlessContext::create();
   if (!made) return made.error();
   context = *std::move(made);
-  Result<std::unique_ptr<Globe>> created = create_globe(picture_options(command, body), base, *std::move(elevation));
-  if (!created) return created.error();
-  globe = *std::move(created);
-  set_paper_texturing(*globe, command.scene);
-  return Done{};
+  return picture_options(command, body);
 }
 
-Status ScenePicture::Parts::add_layers() {
-  SceneOptions layers = command.scene;
-  layers.body = body;
-  auto added = add_overlays(*globe, layers);
-  if (!added) return added.error();
-  overlays = *std::move(added);
-  if (Status images = add_image_layers(*globe, layers); !images) return images;
-  const Result<bool> objects = add_objects(*globe, command.scene);
-  if (!objects) return objects.error();
-  all_objects = *objects;
-  auto opened = open_map(command.scene, body);
+Status ScenePicture::Parts::open() {
+  auto opened = open_scene(command.scene, [this](const Body& body) { return prepare(body); });
   if (!opened) return opened.error();
-  map = *std::move(opened);
+  scene = *std::move(opened);
+  command.scene.base.body = scene.body;
+  auto painter = open_map(command.scene, scene.body);
+  if (!painter) return painter.error();
+  map = *std::move(painter);
+  target = std::make_unique<OffscreenTarget>(command.scene.size);
   return Done{};
 }
 
@@ -205,28 +173,35 @@ ScenePicture::~ScenePicture() = default;
 
 Result<std::unique_ptr<ScenePicture>> ScenePicture::open(const RenderCommand& command) {
   auto parts = std::make_unique<Parts>(Parts{.command = command});
-  if (const Status opened = parts->open_globe(); !opened) return opened.error();
-  if (const Status added = parts->add_layers(); !added) return added.error();
-  parts->target = std::make_unique<OffscreenTarget>(command.scene.size);
+  if (const Status opened = parts->open(); !opened) return opened.error();
   return std::unique_ptr<ScenePicture>(new ScenePicture(std::move(parts)));
 }
 
-Globe& ScenePicture::globe() { return *parts_->globe; }
+Globe& ScenePicture::globe() { return *parts_->scene.globe; }
 
-Camera ScenePicture::first_camera() const {
-  const SceneOptions& scene = parts_->command.scene;
-  return terrella::first_camera(scene, parts_->body, parts_->base.tiles->info().grid.bounds, scene.size);
+Result<LayerId> ScenePicture::add(const OverlayOption& overlay) {
+  auto added = add_overlay(globe(), parts_->command.scene, overlay);
+  if (!added) return added.error();
+  parts_->scene.images.push_back(*std::move(added));
+  return parts_->scene.images.back().id;
 }
 
-bool ScenePicture::has_all_objects() const { return parts_->all_objects; }
+Camera ScenePicture::first_camera() const {
+  const SceneOptions& said = parts_->command.scene;
+  if (said.camera) return *said.camera;
+  const auto part = part_with_data(said.base.address, parts_->scene.base.grid.bounds);
+  return default_camera(part, parts_->scene.body.ellipsoid, said.size);
+}
+
+bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
 
 /// Reports areas without a fill, once for all pictures.
 void ScenePicture::Parts::check_fills() {
   if (std::exchange(checked_fills, true)) return;
-  for (const LayerId layer : globe->objects()) {
-    for (const std::string& complaint : fill_complaints(*globe, layer, command.scene.objects)) {
+  for (const LayerId layer : scene.globe->objects()) {
+    for (const std::string& complaint : fill_complaints(*scene.globe, layer, command.scene.objects)) {
       print_message("{}\n", complaint);
-      all_objects = false;
+      scene.all_objects = false;
     }
   }
 }
@@ -235,27 +210,26 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   Parts& own = *parts_;
   const Viewport size = own.command.scene.size;
   const unsigned framebuffer = own.target->framebuffer();
-  render_all(*own.globe, own.command, camera, framebuffer);
+  Globe& globe = *own.scene.globe;
+  render_all(globe, own.command, camera, framebuffer);
   const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
   if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
-  if (own.globe->needs_frame(framebuffer, size)) own.globe->render(framebuffer, size);
-  const FrameStats stats = own.globe->last_frame();
-  if (const Status& drawn = own.globe->status(); !drawn) return drawn.error();
+  if (globe.needs_frame(framebuffer, size)) globe.render(framebuffer, size);
+  const FrameStats stats = globe.last_frame();
+  if (const Status& drawn = globe.status(); !drawn) return drawn.error();
   own.check_fills();
-  const auto& missing = own.globe->missing_tiles();
-  if (const Status some =
-          check_some_came(stats, missing, own.command.scene.tile_set, own.base.tiles->info().grid.bounds);
-      !some)
-    return some.error();
-  std::vector<std::string> thanks = own.globe->attributions();
+  const auto& missing = globe.missing_tiles();
+  const Status some = check_some_came(stats, missing, own.command.scene.base.address, own.scene.base.grid.bounds);
+  if (!some) return some.error();
+  std::vector<std::string> thanks = globe.attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
   PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
-  if (own.command.legend) overlay.legend = legend_of(*own.globe, own.command.scene, own.base, own.overlays);
+  if (own.command.legend) overlay.legend = legend_of(own.scene);
   if (own.command.credits) overlay.credits = thanks;
-  if (const Status drawn = draw_over_picture(*own.globe, framebuffer, size, overlay); !drawn) {
+  if (const Status drawn = draw_over_picture(globe, framebuffer, size, overlay); !drawn) {
     return Error{where + drawn.error().message};
   }
-  const auto& heights = own.globe->missing_heights();
+  const auto& heights = globe.missing_heights();
   return Rendered{{size.width_px, size.height_px, own.target->read()},
                   stats,
                   {missing.begin(), missing.end()},

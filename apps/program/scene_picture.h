@@ -46,8 +46,9 @@ class ScenePicture {
   ScenePicture& operator=(const ScenePicture&) = delete;
 
   [[nodiscard]] Globe& globe();
-  [[nodiscard]] Camera first_camera() const;   ///< see first_camera() of the scene options
-  [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
+  [[nodiscard]] Result<LayerId> add(const OverlayOption& overlay);  ///< on top; see add_overlay()
+  [[nodiscard]] Camera first_camera() const;                        ///< --camera, or default_camera()
+  [[nodiscard]] bool has_all_objects() const;                       ///< false if the file of --objects has faults
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).
   [[nodiscard]] Result<Rendered> draw(const Camera& camera);

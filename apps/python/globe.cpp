@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/open_scene/scene_overlays.h"
 #include "apps/process/console.h"
 #include "apps/process/option_names.h"
 #include "apps/process/stop_signals.h"
@@ -147,15 +146,13 @@ class PythonGlobe {
   [[nodiscard]] Viewport size() const { return command_.scene.size; }
 
   std::uint64_t add_imagery(const std::filesystem::path& tileset, double opacity) {
-    SceneOptions scene = command_.scene;
-    scene.overlays = {{.tile_set = tileset.string(), .opacity = opacity}};
     std::uint64_t added = 0;
     const Said said = run_long([&] {
       return thread_.run([&] {
         if (!picture_) return fail("imagery", kClosed);
-        const auto overlays = add_overlays(picture_->globe(), scene);
-        if (!overlays) return fail("imagery", overlays.error().message);
-        added = static_cast<std::uint64_t>(picture_->globe().imagery().back());
+        const auto layer = picture_->add({.tile_set = tileset.string(), .opacity = opacity});
+        if (!layer) return fail("imagery", layer.error().message);
+        added = static_cast<std::uint64_t>(*layer);
         return static_cast<int>(kDone);
       });
     });

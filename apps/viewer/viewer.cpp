@@ -178,7 +178,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
     frame_.draw(globe_, framebuffer);
     if (!globe_.status()) messages_.say(globe_.status().error().message);
     layers_.watch_tiles(frame_.stats());
-    const std::string note = memory_note(options_.files, globe_.last_frame());
+    const std::string note = memory_note(globe_.options().gpu_bytes >> 20, globe_.last_frame());
     if (!note.empty() && !std::exchange(said_memory_, true)) messages_.say(note);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

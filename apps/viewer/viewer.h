@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/options/source_options.h"
 #include "apps/viewer/action.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"
@@ -41,7 +41,7 @@ struct ViewerOptions {
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
   std::filesystem::path places = {};            ///< GeoJSON for search and map; empty: the program's cities
-  SceneOptions files = {};                      ///< options for opening dropped files
+  SourceOptions files = {};                     ///< options for opening dropped files
   bool map = true;                              ///< show the map, if there is one of the body
   KeptSettings kept = {};                       ///< settings from the file
   bool first_run = false;                       ///< true: show a hint

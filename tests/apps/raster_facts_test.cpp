@@ -45,13 +45,9 @@ TEST(RasterFactsTest, NameTheSystemThatTheUserSays) {
 /// Facts about TILESET as the window's panel gets them.
 std::vector<std::string> facts_of_opened(const std::string& tile_set) {
   OpenedRasters opened;
-  SceneOptions scene;
-  scene.tile_set = tile_set;
-  scene.cache = "off";
-  scene.opened = &opened;
-  const auto tiles = open_any_tiles(scene);
+  const auto tiles = open_any_tiles({.address = tile_set, .cache = "off", .opened = &opened});
   EXPECT_TRUE(tiles) << tiles.error().message;
-  const FactsReader reader = facts_reader(scene.tile_set, {}, {}, opened);
+  const FactsReader reader = facts_reader(tile_set, {}, {}, opened);
   return reader ? reader() : std::vector<std::string>();
 }
 
@@ -77,7 +73,7 @@ TEST(RasterFactsTest, OfATiffOnAServerAreThoseOfTheFileAndCostNoRequest) {
   const test::ServedFolder served;
   fs::copy(kSea, served / "sea.tif");
   const Url url = served.url("sea.tif");
-  const auto opened = open_remote_tiff({.url = url});
+  const auto opened = open_remote_tiff({.source = {.address = url}});
   ASSERT_TRUE(opened) << opened.error().message;
   const std::size_t asked = served.requests(1);
   const auto here = raster_facts(kSea, {}, {});

@@ -9,7 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/open_scene/open_imagery.h"
+#include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/scene_objects.h"
 #include "apps/process/write_file.h"
@@ -30,17 +31,16 @@ T value_of(Result<T> result) {
 }
 
 std::vector<std::uint8_t> draw(const SceneOptions& scene, bool naive) {
-  auto imagery = value_of(open_imagery(scene));
-  auto elevation = value_of(open_elevation(scene));
-  const Body body = value_of(scene_body(scene, imagery->info()));
-  GlobeOptions options = globe_options(scene, body);
-  add_sky_data(options, options.time.has_value());
-  auto globe = value_of(Globe::create(options, std::move(imagery), std::move(elevation)));
+  const OpenedScene opened = value_of(open_scene(scene, [&](const Body& body) -> Result<GlobeOptions> {
+    GlobeOptions options = globe_options(scene, body);
+    add_sky_data(options, options.time.has_value());
+    return options;
+  }));
+  const auto& globe = opened.globe;
   Experiments::of(*globe).naive_translucency = naive;
   // The order of two mountains is chance; in this order some of those behind come first.
   if (naive) Experiments::of(*globe).patch_shuffle = 5U;
-  if (const auto added = add_objects(*globe, scene); !added) throw std::runtime_error(added.error().message);
-  globe->set_camera(first_camera(scene, body, GeoRect{}, scene.size));
+  globe->set_camera(scene.camera.value_or(default_camera({}, opened.body.ellipsoid, scene.size)));
   const OffscreenTarget target(scene.size);
   globe->render_until_settled(target.framebuffer(), scene.size,
                               std::chrono::steady_clock::now() + std::chrono::minutes(1));

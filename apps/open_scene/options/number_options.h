@@ -16,12 +16,12 @@ namespace terrella {
 
 /// Options for reading and colouring the numbers of a raster; the parse has checked every value.
 struct NumberOptions {
-  std::string colormap;              ///< name of a map, with ":CENTRE" if it has a middle, or a file; empty: viridis
-  std::vector<StretchRule> stretch;  ///< one, or one for each of `bands`; empty: percent:2,98
-  std::optional<double> nodata;
-  int band = 0;                             ///< counted from 1; 0: the only one
-  std::optional<std::array<int, 3>> bands;  ///< shown as red, green and blue, counted from 1
-  bool heights = false;                     ///< set by --elevation: reads numbers as heights in any case
+  std::string colormap{};              ///< name of a map, with ":CENTRE" if it has a middle, or a file; empty: viridis
+  std::vector<StretchRule> stretch{};  ///< one, or one for each of `bands`; empty: percent:2,98
+  std::optional<double> nodata{};
+  int band = 0;                               ///< counted from 1; 0: the only one
+  std::optional<std::array<int, 3>> bands{};  ///< shown as red, green and blue, counted from 1
+  bool heights = false;                       ///< set by --elevation: reads numbers as heights in any case
   bool operator==(const NumberOptions&) const = default;
 
   /// True if the user wants a raster of any kind read as numbers.

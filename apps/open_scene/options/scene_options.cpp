@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
-#include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/options/layer_options.h"
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/options/surface_options.h"
-#include "apps/open_scene/scene_overlays.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
-#include "view/view_limits.h"
 
 namespace terrella {
 namespace {
@@ -38,16 +34,17 @@ void add_camera_options(CLI::App& command, SceneOptions& options) {
 void add_planet_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option_function<std::string>(
-          "--body", [&options](const std::string& text) { options.body = parsed_or_throw("--body", parse_body(text)); },
+          "--body",
+          [&options](const std::string& text) { options.base.body = parsed_or_throw("--body", parse_body(text)); },
           "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names())
       ->type_name("NAME|A,F");
   add_choice<Projection>(
-      command, "--projection", options.projection,
+      command, "--projection", options.base.projection,
       {{"equirectangular", Projection::equirectangular},
        {"equal-area", Projection::equal_area},
        {"web-mercator", Projection::web_mercator}},
       "Set the imagery's projection; its rows are linear in latitude, in the sine of latitude, or as in web maps");
-  add_choice<LatitudeKind>(command, "--latitude", options.latitude,
+  add_choice<LatitudeKind>(command, "--latitude", options.base.latitude,
                            {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
                            "Set the latitude that the imagery's rows count: planetographic or planetocentric");
 }
@@ -91,45 +88,6 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
       {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
       "Choose the depth buffer's encoding")
       ->default_str("reversed");
-}
-
-void add_overlay_options(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--overlay",
-          [&options](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              options.overlays.push_back(parsed_or_throw("--overlay", parse_overlay(text)));
-            }
-          },
-          "Add a layer of imagery on top, with an opacity from 0 to 1. Transparent pixels and missing tiles show the "
-          "layer below. Repeatable")
-      ->type_name("TILESET[:OPACITY]")
-      ->allow_extra_args(false);
-  add_choice<Projection>(command, "--overlay-projection", options.overlay_projection,
-                         {{"equirectangular", Projection::equirectangular},
-                          {"equal-area", Projection::equal_area},
-                          {"web-mercator", Projection::web_mercator}},
-                         "Set the projection of overlays that do not state it, such as URL templates");
-}
-
-void add_layer_options(CLI::App& command, SceneOptions& options) {
-  command
-      .add_option("--night", options.night,
-                  "Add self-luminous imagery for the night side at --time; it fades in through civil twilight")
-      ->type_name("TILESET");
-  command
-      .add_option_function<std::string>(
-          "--clouds",
-          [&options](const std::string& text) { options.clouds = parsed_or_throw("--clouds", parse_overlay(text)); },
-          "Add white-on-black cloud imagery above all other layers; black is clear. The opacity is 0 to 1")
-      ->type_name("TILESET[:OPACITY]");
-  command
-      .add_option("--cloud-height", options.cloud_height_m,
-                  "Draw --clouds this many metres over the ground, with their shadow; at 0 they lie on the ground")
-      ->check(number_in(0.0, 1.0e6))
-      ->type_name("METRES")
-      ->capture_default_str();
 }
 
 // Parses a time and refuses years outside the almanac.
@@ -187,7 +145,7 @@ void add_stereo_options(CLI::App& command, SceneOptions& options) {
 
 void add_cache_options(CLI::App& command, SceneOptions& options) {
   command
-      .add_option("--cache", options.cache,
+      .add_option("--cache", options.base.cache,
                   "Cache tiles from servers in FILE, and heights beside FILE in NAME-heights.gpkg. A picture given as "
                   "TILESET is "
                   "cut into the cache for later runs, but a tiled TIFF with overviews (COG) is read in place. 'off' "
@@ -195,7 +153,8 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
                   "~/.cache/terrella)")
       ->type_name("FILE|off");
   command
-      .add_option("--cache-size", options.cache_size_mb, "Limit the cache file for tiles from servers, in megabytes")
+      .add_option("--cache-size", options.base.cache_size_mb,
+                  "Limit the cache file for tiles from servers, in megabytes")
       ->check(whole_number_in(64, 1 << 24))
       ->type_name("MB")
       ->capture_default_str();
@@ -203,7 +162,7 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
       ->check(whole_number_in(64, 65536))
       ->type_name("MB")
       ->capture_default_str();
-  command.add_flag("--offline", options.offline, "Use the cache alone and send no request");
+  command.add_flag("--offline", options.base.offline, "Use the cache alone and send no request");
 }
 
 }  // namespace
@@ -211,7 +170,7 @@ void add_cache_options(CLI::App& command, SceneOptions& options) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
-          "tileset", options.tile_set,
+          "tileset", options.base.address,
           "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
           "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
           "TIFF, or "
@@ -219,8 +178,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("TILESET");
   add_camera_options(command, options);
   add_planet_options(command, options);
-  add_place_options(command, options.place);
-  add_number_options(command, options.numbers, options.band);
+  add_place_options(command, options.base.place);
+  add_number_options(command, options.base.numbers, options.band);
   add_drawing_options(command, options);
   add_overlay_options(command, options);
   add_layer_options(command, options);
@@ -230,39 +189,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_map_options(command, options);
   add_stereo_options(command, options);
   add_cache_options(command, options);
-  add_remote_set_options(command, options.remote);
-}
-
-SceneOptions options_beside(const SceneOptions& options, const Url& tile_set) {
-  SceneOptions other = options;
-  other.tile_set = tile_set;
-  other.projection.reset();
-  other.latitude.reset();
-  other.place = {};
-  other.numbers = {};
-  other.remote = {};
-  if (other.cache != "off") other.cache.clear();
-  return other;
-}
-
-Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
-  if (options.body) return *options.body;
-  if (info.body.empty()) return earth();
-  auto said = parse_body(info.body);
-  if (!said) return Error{info.name + ": its description names the body '" + info.body + "': " + said.error().message};
-  return said;
-}
-
-Camera first_camera(const SceneOptions& options, const Body& body, const GeoRect& bounds, Viewport picture) {
-  if (options.camera) return *options.camera;
-  Camera whole;
-  whole.eye = {.lat = Angle::degrees(20.0), .lon = Angle::degrees(0.0)};
-  whole.eye.height_m = whole_globe_height_m(body.ellipsoid, whole.fov_y, picture);
-  const auto part = part_with_data(options.tile_set, bounds);
-  if (!part) return whole;
-  Camera over = camera_over(*part, body.ellipsoid, whole.fov_y, double(picture.width_px) / picture.height_px);
-  over.eye.height_m = std::min(over.eye.height_m, whole.eye.height_m);
-  return over;
+  add_remote_set_options(command, options.base.remote);
 }
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
@@ -284,12 +211,12 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
 }
 
 // A layer of small tiles has few bytes of slots in any driver; the default asks for no certain number.
-std::string memory_note(const SceneOptions& options, const FrameStats& stats) {
+std::string memory_note(std::size_t memory_mb, const FrameStats& stats) {
   const std::size_t granted_mb = stats.gpu_bytes_granted >> 20;
-  const bool is_less = options.memory_mb > SceneOptions().memory_mb && granted_mb < options.memory_mb;
+  const bool is_less = memory_mb > SceneOptions().memory_mb && granted_mb < memory_mb;
   if (stats.gpu_bytes_granted == 0 || (!is_less && !stats.gpu_memory_refused)) return {};
   return fmt::format(
-      "--memory {}: the driver gives {} MB for tiles{}", options.memory_mb, granted_mb,
+      "--memory {}: the driver gives {} MB for tiles{}", memory_mb, granted_mb,
       stats.gpu_memory_refused ? ", and has no memory for more" : ", as many as its array textures hold");
 }
 

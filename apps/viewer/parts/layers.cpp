@@ -24,7 +24,7 @@ constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 }  // namespace
 
 Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
-               const SceneOptions& files, std::vector<LayerSwitch> switches)
+               const SourceOptions& files, std::vector<LayerSwitch> switches)
     : Panel(context, "Layers"),
       rows_(std::move(rows)),
       heights_(std::move(heights)),

@@ -19,7 +19,7 @@ class Layers : public Panel {
   /// `rows`, the globe's layers: heights, imagery from bottom to top, objects. `heights`, the globe's heights. `files`,
   /// options for opening files. `switches`, further rows, which only switch something on and off.
   Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
-         const SceneOptions& files, std::vector<LayerSwitch> switches);
+         const SourceOptions& files, std::vector<LayerSwitch> switches);
 
   /// Opens a file in the background and adds it as a layer. A model stands in the middle of the picture.
   void open(std::filesystem::path file);

@@ -66,7 +66,7 @@ std::string shown_name(const std::filesystem::path& path) {
   return one_line(name.empty() ? shown : name.string());
 }
 
-Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options, const Geodetic& place,
+Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceOptions& options, const Geodetic& place,
                                 const CutProgress& progress) {
   const std::string extension = lower_extension(path);
   const bool of_objects = extension == ".geojson" || extension == ".glb" || extension == ".gltf";
@@ -76,14 +76,14 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOp
   }
   if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
   if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
-  SceneOptions tiles_options = options_beside(options, path.string());
+  SourceOptions tiles_options = options_beside(options, path.string());
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   tiles_options.cuts = &cuts;
   OpenedRasters rasters;
   tiles_options.opened = &rasters;
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles) return tiles.error();
-  FactsReader read_facts = facts_reader(tiles_options.tile_set, {}, {}, rasters);
+  FactsReader read_facts = facts_reader(tiles_options.address, {}, {}, rasters);
   if (!is_of_heights((*tiles)->info())) {
     auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
     if (!layer) return layer.error();

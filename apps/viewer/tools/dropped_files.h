@@ -29,7 +29,7 @@ struct OpenedFile {
 /// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of
 /// pictures, numbers or heights, GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The
 /// error names the file and the reason. thread: any, one at a time
-[[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SceneOptions& options,
+[[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
 
 /// The file's name, or the whole address without its query: the last part of most addresses is just "{y}.jpg".
@@ -39,7 +39,7 @@ struct OpenedFile {
 /// Opens files one after another on a background thread while the window continues. thread: main
 class DroppedFiles {
  public:
-  explicit DroppedFiles(SceneOptions options) : options_(std::move(options)) {}
+  explicit DroppedFiles(SourceOptions options) : options_(std::move(options)) {}
   ~DroppedFiles();  ///< cancels the cutting in progress
   DroppedFiles(const DroppedFiles&) = delete;
   DroppedFiles& operator=(const DroppedFiles&) = delete;
@@ -59,7 +59,7 @@ class DroppedFiles {
   };
   void start_next();
 
-  SceneOptions options_;
+  SourceOptions options_;
   std::deque<Waiting> waiting_;
   std::filesystem::path current_;
   std::future<Result<OpenedFile>> running_;
