@@ -7,7 +7,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 eye_low_ecef;
   vec4 clip_scale;         // x, y: focal lengths; z: near plane, metres; w: far plane, metres (standard and logarithmic depth)
   vec4 sun_ecef;           // unit; w: 1 lit, 0 imagery only
-  vec4 texels;             // tile_px over slot_px; slot_px; number of mip levels; polar scale of the row direction (TileGrid's latitude)
+  vec4 texels;             // tile_px over layer_px; layer_px; slot_px over layer_px; polar scale of the row direction (TileGrid's latitude)
   // Parameters a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of an upper layer.
   vec4 paper;
   // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.

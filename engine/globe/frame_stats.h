@@ -35,14 +35,15 @@ struct FrameStats {
   double selection_ms = 0.0;
   // Totals over all layers that were drawn.
   std::size_t gpu_bytes = 0;  ///< texture slots, used or free
-  /// Most bytes that texture slots may take. Less than GlobeOptions::gpu_bytes if the driver's array textures have too
-  /// few layers for more, or if the driver has refused memory; the globe then goes on with fewer tiles. At least 16
-  /// tiles for each layer.
+  /// Most bytes that texture slots may take. Less than GlobeOptions::gpu_bytes if the driver's array textures hold no
+  /// more (65,536 tiles at most), or if the driver has refused memory; the globe then goes on with fewer tiles. At
+  /// least 16 tiles for each layer.
   std::size_t gpu_bytes_granted = 0;
-  bool gpu_memory_refused = false;  ///< the driver has refused memory for texture slots
-  std::size_t height_bytes = 0;     ///< elevation tiles
-  std::size_t patches_held = 0;     ///< patches kept in memory, drawn or not
-  std::size_t tiles_known = 0;      ///< tiles of imagery with a remembered state
+  /// The driver has refused memory for texture slots, or for an object layer, which is then not drawn.
+  bool gpu_memory_refused = false;
+  std::size_t height_bytes = 0;  ///< elevation tiles
+  std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
+  std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state
 };
 
 /// A rectangle of a picture, pixels from the upper left corner.

@@ -202,6 +202,7 @@ void GlobeView::Impl::draw_picture(unsigned framebuffer, const FrameInput& input
   status = counts ? Status(Done{}) : counts.error();
   if (!counts) return;
   stats.draw_calls = counts->draw_calls;
+  stats.gpu_memory_refused = stats.gpu_memory_refused || counts->objects_left_out;
   stats.triangles = counts->triangles;
 }
 

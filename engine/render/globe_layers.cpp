@@ -49,7 +49,7 @@ bool GlobeRenderer::shares_vertices(const LayerFrame& layer, const LayerFrame& b
   return &layer != &base && grid.projection == rows.projection && grid.latitude == rows.latitude;
 }
 
-void GlobeRenderer::upload_layers(const FrameInput& input) {
+Status GlobeRenderer::upload_layers(const FrameInput& input) {
   const LayerFrame& base = input.layers.front();
   const bool shaded = input.relief != nullptr && input.lit;
   if (shaded && !slopes_) slopes_ = std::make_unique<SlopeTextures>(input.relief->grid());
@@ -67,9 +67,13 @@ void GlobeRenderer::upload_layers(const FrameInput& input) {
     if (own) own->set_views(input.views);
     patches_->upload(*layer.gpu, {vertices_of(layer, base), own ? *layer.tree : *base.tree, own != nullptr},
                      *layer.patches, *layer.coverage, stacks_.own[k], input.frame);
+    if (!vertices_of(layer, base).has_memory(input.frame)) {
+      return Error{"Globe::render: the driver has no memory for the vertices of the ground; draw a smaller picture"};
+    }
     if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
   }
   patches_->upload(stacks_, stack_layers_, {vertices_of(base, base), *base.tree, true}, input.frame);
+  return Done{};
 }
 
 }  // namespace terrella

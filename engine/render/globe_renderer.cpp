@@ -89,8 +89,9 @@ Status GlobeRenderer::prepare(const Pass& pass) {
 Result<FrameCounts> GlobeRenderer::draw(const FrameInput& input, PictureMemory& memory, GLuint framebuffer) {
   if (Status prepared = prepare(input, memory, framebuffer); !prepared) return prepared.error();
   FrameCounts counts;
+  counts.objects_left_out = objects_ && !objects_->has_memory();
   const std::vector<EyePicture> pictures = pictures_of(input);
-  upload_layers(input);
+  if (Status uploaded = upload_layers(input); !uploaded) return uploaded.error();
   begin_frame(input, counts);
   memory.frame = input.frame;
   targets_->set_frame(input.frame);

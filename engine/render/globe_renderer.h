@@ -207,7 +207,7 @@ class GlobeRenderer {
   void plan_stacks(const Pass& pass);
   [[nodiscard]] static PatchBuffers& vertices_of(const LayerFrame& layer, const LayerFrame& base);
   [[nodiscard]] static bool shares_vertices(const LayerFrame& layer, const LayerFrame& base);
-  void upload_layers(const FrameInput& input);
+  Status upload_layers(const FrameInput& input);
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
   [[nodiscard]] glm::vec4 texels_of(const LayerFrame& layer) const;

@@ -218,8 +218,8 @@ void GlobeRenderer::describe_limb(const Pass& pass, FrameBlock& block) const {
 glm::vec4 GlobeRenderer::texels_of(const LayerFrame& layer) const {
   const SlotLayout& layout = layer.tiles->layout();
   const bool centric = layer.tree->grid().latitude == LatitudeKind::centric;
-  return {double(layout.tile_px) / layout.slot_px(), layout.slot_px(), layer.tiles->mips(),
-          centric ? ellipsoid_.one_minus_e2() : 1.0};
+  const double layer_px = layout.layer_px();
+  return {layout.tile_px / layer_px, layer_px, layout.slot_px() / layer_px, centric ? ellipsoid_.one_minus_e2() : 1.0};
 }
 
 // Sets the uniforms that depend on a layer.

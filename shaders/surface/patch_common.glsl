@@ -1,5 +1,6 @@
 // Look-ups shared by all texturing methods of patches.
-layout(binding = 1) uniform usamplerBuffer window_cells;    // layer | log2 rows << 16 | log2 columns << 24
+layout(binding = 1) uniform usamplerBuffer window_cells;    // slot | log2 rows << 16 | log2 columns << 24
+const int kSlotMips = 4;  // mip levels of a slot; kMips of engine/globe/image_layer.cpp
 
 in vec3 row_direction;
 in float light;

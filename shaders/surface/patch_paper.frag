@@ -22,6 +22,6 @@ void main() {
     float most = 64.0;                                                       // limit, because (6) divides by zero
     level = min(most, max(0.0, level - 1.0) / max(paper.x * v_hat, 1e-6));  // (6)
   }
-  level = clamp(level - row.y, 0.0, texels.z - 1.0);
+  level = clamp(level - row.y, 0.0, float(kSlotMips - 1));
   finish(seen(mip_tap(cell, w.p, level)));
 }

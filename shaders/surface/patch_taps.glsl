@@ -26,7 +26,8 @@ Cell cell_at(vec2 p) {
   uvec2 up = uvec2(bits >> 24, (bits >> 16) & 0xFFu);
   uvec2 part = (window.zw + uvec2(c)) & ((uvec2(1u) << up) - 1u);  // selects one of the tile's 2^up.x by 2^up.y parts
   vec2 scale = texels.x * uintBitsToFloat((127u - up) << 23);      // 2^-up
-  return Cell(scale, vec2(0.5 - 0.5 * texels.x) + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFFu));
+  vec2 corner = 0.5 * (texels.z - texels.x) + texels.z * vec2((bits >> 12) & 3u, (bits >> 14) & 3u);
+  return Cell(scale, corner + scale * (vec2(part) - vec2(c)), float(bits & 0xFFFu));
 }
 
 #if defined(NUMBERS)
@@ -64,7 +65,7 @@ vec2 level_tap(vec3 at, int level) {
 vec2 mip_tap(Cell cell, vec2 p, float level) {
   vec3 at = slot_point(cell, p);
   int finer = int(level);
-  return mix(level_tap(at, finer), level_tap(at, min(finer + 1, int(texels.z) - 1)), fract(level));
+  return mix(level_tap(at, finer), level_tap(at, min(finer + 1, kSlotMips - 1)), fract(level));
 }
 
 // Colour of a mean; clear if less than half of the weight has data.

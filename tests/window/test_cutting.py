@@ -96,7 +96,7 @@ class Cutting(WindowTest):
         self.assertFalse(self.has_bar(png.read(self.screenshot(viewer, "before"))))
         viewer.drop(self.picture)
         wait_until("the bar", lambda: self.has_bar(png.read(self.screenshot(viewer, "dropped"))))
-        self.assertIsNotNone(self.work(), "the cut goes on")
+        wait_until("a cut that goes on", lambda: self.work() is not None)
         self.assert_coarse_picture_and_bar(viewer)
         self.remove_highest_layer(viewer)
         wait_until("the bar's end", lambda: not self.has_bar(png.read(self.screenshot(viewer, "removed"))))

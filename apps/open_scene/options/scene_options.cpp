@@ -213,7 +213,8 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
 // A layer of small tiles has few bytes of slots in any driver; the default asks for no certain number.
 std::string memory_note(std::size_t memory_mb, const FrameStats& stats) {
   const std::size_t granted_mb = stats.gpu_bytes_granted >> 20;
-  const bool is_less = memory_mb > SceneOptions().memory_mb && granted_mb < memory_mb;
+  // Slots fill whole layers of an array.
+  const bool is_less = memory_mb > SceneOptions().memory_mb && granted_mb < memory_mb - memory_mb / 100;
   if (stats.gpu_bytes_granted == 0 || (!is_less && !stats.gpu_memory_refused)) return {};
   return fmt::format(
       "--memory {}: the driver gives {} MB for tiles{}", memory_mb, granted_mb,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/gl/storage.h"
+
 namespace terrella {
 namespace {
 
@@ -47,6 +49,7 @@ Result<std::unique_ptr<GlyphAtlas>> GlyphAtlas::create(std::vector<std::byte> fo
   }
   atlas->texture_ = gl::make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(atlas->texture_.name(), 1, GL_RG8, kSide_px, kSide_px);
+  if (!gl::has_storage(atlas->texture_)) return Error{"the driver has no memory for the letters of labels"};
   glTextureParameteri(atlas->texture_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(atlas->texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return atlas;

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "render/gl/storage.h"
+
 namespace terrella {
 namespace {
 
@@ -79,16 +81,20 @@ gl::Texture texture_of(GLenum format, GLsizei levels, int width_px, int height_p
 
 }  // namespace
 
-void IconAtlas::follow(const Icons& icons) {
-  if (icons == icons_) return;
+bool IconAtlas::follow(const Icons& icons) {
+  if (icons == icons_) return true;
   icons_ = icons;
-  if (icons.empty()) return;
+  if (icons.empty()) return true;
   const Layout layout = pack(icons);
   std::vector<std::uint8_t> texels(4 * static_cast<std::size_t>(layout.width_px) *
                                    static_cast<std::size_t>(layout.height_px));
   for (std::size_t k = 0; k < icons.size(); ++k) put(*icons[k], layout.places[k], layout, texels);
   const int levels = std::bit_width(static_cast<unsigned>(layout.rim_px));
   texture_ = texture_of(GL_RGBA8, levels, layout.width_px, layout.height_px);
+  if (!gl::has_storage(texture_)) {
+    icons_.clear();
+    return false;
+  }
   glTextureSubImage2D(texture_.name(), 0, 0, 0, layout.width_px, layout.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
                       texels.data());
   glGenerateTextureMipmap(texture_.name());
@@ -98,6 +104,7 @@ void IconAtlas::follow(const Icons& icons) {
   glTextureSubImage2D(places_.name(), 0, 0, 0, count, 1, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, layout.places.data());
   glTextureParameteri(places_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(places_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return true;
 }
 
 }  // namespace terrella

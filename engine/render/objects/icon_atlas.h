@@ -15,8 +15,9 @@ class IconAtlas {
   /// The longest icon may be drawn as small as this without aliasing, pixels.
   static constexpr int kLeastSide_px = 8;
 
-  /// Packs the icons anew if they are others than before.
-  void follow(const std::vector<std::shared_ptr<const IconImage>>& icons);
+  /// Packs the icons anew if they are others than before. False if the driver has no memory for them; the next call
+  /// tries again.
+  [[nodiscard]] bool follow(const std::vector<std::shared_ptr<const IconImage>>& icons);
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
   /// One texel for each icon: left, top, width and height in the texture.
   [[nodiscard]] GLuint places() const { return places_.name(); }

@@ -12,19 +12,25 @@ namespace terrella {
 /// A buffer that follows a list: the buffer grows with the list, and uploads only changes. thread: main
 class FollowingBuffer {
  public:
+  /// False if the driver has no memory for the list; the next call tries again.
   template <class T>
-  void follow(const std::vector<T>& items, ChangedRanges& changed) {
+  [[nodiscard]] bool follow(const std::vector<T>& items, ChangedRanges& changed) {
     constexpr std::size_t kGapBytes = 2048;  // a second call costs more than these bytes
-    if (changed.empty()) return;
-    if (items.size() * sizeof(T) > capacity_) return fill(items.data(), items.size() * sizeof(T)), changed.forget();
+    if (changed.empty()) return true;
+    if (items.size() * sizeof(T) > capacity_) {
+      const bool is_filled = fill(items.data(), items.size() * sizeof(T));
+      if (is_filled) changed.forget();
+      return is_filled;
+    }
     for (const ChangedRanges::Range& range : changed.take(kGapBytes / sizeof(T))) {
       put(range.first * sizeof(T), items.data() + range.first, (range.end - range.first) * sizeof(T));
     }
+    return true;
   }
   [[nodiscard]] GLuint name() const { return buffer_.name(); }
 
  private:
-  void fill(const void* data, std::size_t bytes);
+  [[nodiscard]] bool fill(const void* data, std::size_t bytes);
   void put(std::size_t at, const void* data, std::size_t bytes) const;
 
   gl::Buffer buffer_;
@@ -40,8 +46,9 @@ struct LayerBuffers {
   std::vector<Buckets> stands;  ///< per model of the layer
   IconAtlas icon_atlas;
 
-  /// Uploads the changes since the last call.
-  void follow(LayerObjects& objects);
+  /// Uploads the changes since the last call. False if the driver has no memory for them; the layer cannot be drawn
+  /// then.
+  [[nodiscard]] bool follow(LayerObjects& objects);
 };
 
 /// A layer that a frame draws.

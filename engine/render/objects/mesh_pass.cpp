@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 
+#include "render/gl/storage.h"
 #include "render/gl/vertex_attribute.h"
 
 namespace terrella {
@@ -19,6 +20,7 @@ gl::Texture texture_of(const std::uint8_t* rgba, int width_px, int height_px) {
   gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
   const int levels = 1 + static_cast<int>(std::log2(std::max(width_px, height_px)));
   glTextureStorage2D(texture.name(), levels, GL_SRGB8_ALPHA8, width_px, height_px);
+  if (!gl::has_storage(texture)) return {};
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture.name(), 0, 0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
   glGenerateTextureMipmap(texture.name());
@@ -63,11 +65,14 @@ MeshPass::Part MeshPass::upload(const MeshPart& part) {
   return made;
 }
 
-MeshPass::Model MeshPass::upload(std::shared_ptr<const MeshModel> model) {
-  Model made;
+bool MeshPass::upload(std::shared_ptr<const MeshModel> model, Model& made) const {
   std::map<const MeshTexture*, GLuint> textures;
   for (const MeshPart& part : model->parts) {
-    made.parts.push_back(upload(part));
+    const Part& put = made.parts.emplace_back(upload(part));
+    if (!gl::has_storage(put.vertices, part.vertices.size() * sizeof(MeshVertex)) ||
+        !gl::has_storage(put.indices, part.indices.size() * sizeof(std::uint32_t))) {
+      return false;
+    }
     made.parts.back().texture = white_.name();
     if (!part.texture) continue;
     const auto [found, first] = textures.try_emplace(part.texture.get(), 0);
@@ -75,22 +80,28 @@ MeshPass::Model MeshPass::upload(std::shared_ptr<const MeshModel> model) {
       made.textures.push_back(texture_of(part.texture->rgba.data(), part.texture->width_px, part.texture->height_px));
       found->second = made.textures.back().name();
     }
+    if (found->second == 0) return false;
     made.parts.back().texture = found->second;
   }
   made.model = std::move(model);
-  return made;
+  return true;
 }
 
-void MeshPass::upload(std::span<const DrawnLayer> layers) {
-  for (auto& [model, made] : models_) made.used = false;
-  for (const DrawnLayer& layer : layers) {
-    for (const ModelStands& stands : layer.objects->batches().models) {
-      const auto [found, first] = models_.try_emplace(stands.model.get());
-      if (first) found->second = upload(stands.model);
-      found->second.used = true;
-    }
+bool MeshPass::upload(const DrawnLayer& layer) {
+  bool has_memory = true;
+  for (const ModelStands& stands : layer.objects->batches().models) {
+    const auto [found, first] = models_.try_emplace(stands.model.get());
+    found->second.used = true;
+    if (!first || upload(stands.model, found->second)) continue;
+    models_.erase(found);
+    has_memory = false;
   }
+  return has_memory;
+}
+
+void MeshPass::free_unused() {
   std::erase_if(models_, [](const auto& model) { return !model.second.used; });
+  for (auto& [model, made] : models_) made.used = false;
 }
 
 int MeshPass::draw(const DrawnLayer& layer, const ObjectDraw& draw) const {

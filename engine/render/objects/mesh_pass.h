@@ -22,8 +22,11 @@ class MeshPass {
  public:
   [[nodiscard]] static Result<std::unique_ptr<MeshPass>> create(DepthMode depth);
 
-  /// Uploads the models of layers that are not on the GPU yet, and frees those that no layer has.
-  void upload(std::span<const DrawnLayer> layers);
+  /// Uploads the models of a layer that are not on the GPU yet. False if the driver has no memory for them; the layer
+  /// cannot be drawn then.
+  [[nodiscard]] bool upload(const DrawnLayer& layer);
+  /// Frees the models of which no layer was uploaded since the last call.
+  void free_unused();
   /// Returns the draw calls made: one for each opaque material of each model, two for each translucent one: faces away
   /// from the eye, then towards it.
   [[nodiscard]] int draw(const DrawnLayer& layer, const ObjectDraw& draw) const;
@@ -53,7 +56,8 @@ class MeshPass {
 
   MeshPass() = default;
   [[nodiscard]] static int draw_parts(const Model& model, const Places& places, bool opaque, const DrawState& state);
-  [[nodiscard]] Model upload(std::shared_ptr<const MeshModel> model);
+  /// False if the driver has no memory for the model.
+  [[nodiscard]] bool upload(std::shared_ptr<const MeshModel> model, Model& made) const;
   [[nodiscard]] static Part upload(const MeshPart& part);
 
   gl::Program program_;

@@ -40,12 +40,13 @@ void ObjectPass::set_up_arrays() {
 }
 
 void ObjectPass::set_layers(std::vector<DrawnLayer> layers) {
-  layers_ = std::move(layers);
+  given_ = std::move(layers);
+  layers_ = given_;
   planned_.clear();
 }
 
 Status ObjectPass::prepare() {
-  for (const DrawnLayer& layer : layers_) {
+  for (const DrawnLayer& layer : given_) {
     if (!labels_ && !font_.empty() && !layer.objects->labels().empty()) {
       auto made = LabelPass::create(depth_, font_);
       if (!made) return made.error();
@@ -71,8 +72,13 @@ Status ObjectPass::prepare() {
 }
 
 void ObjectPass::upload() {
-  for (const DrawnLayer& layer : layers_) layer.buffers->follow(*layer.objects);
-  if (meshes_) meshes_->upload(layers_);
+  std::vector<DrawnLayer> on_gpu;
+  for (const DrawnLayer& layer : given_) {
+    if (layer.buffers->follow(*layer.objects) && (!meshes_ || meshes_->upload(layer))) on_gpu.push_back(layer);
+  }
+  if (meshes_) meshes_->free_unused();
+  if (on_gpu.size() != layers_.size() || on_gpu.size() < given_.size()) planned_.clear();
+  layers_ = std::move(on_gpu);
   plan_fills();
 }
 

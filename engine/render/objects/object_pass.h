@@ -31,8 +31,11 @@ class ObjectPass {
   void set_layers(std::vector<DrawnLayer> layers);
   /// Makes the programs that the layers need and no earlier ones needed.
   Status prepare();
-  /// Uploads the changes of the layers. Call it before drawing.
+  /// Uploads the changes of the layers. Call it before drawing. Layers for which the driver has no memory are not
+  /// drawn; the next call tries again.
   void upload();
+  /// False if the last upload() left out a layer.
+  [[nodiscard]] bool has_memory() const { return layers_.size() == given_.size(); }
   [[nodiscard]] bool has(ObjectPart part) const;
 
   /// Lines and areas that lie on the ground are a pass of their own. prepare_drapes() makes its programs, for pictures
@@ -86,8 +89,8 @@ class ObjectPass {
   std::unique_ptr<MeshPass> meshes_;
   std::unique_ptr<SolidPass> solids_;
   std::unique_ptr<IconPass> icons_;
-  std::vector<DrawnLayer> layers_;
-  std::vector<std::uint64_t> planned_;  ///< LayerBatches::fill_version of each layer in fills_
+  std::vector<DrawnLayer> given_, layers_;  ///< those of set_layers(), and those among them that are on the GPU
+  std::vector<std::uint64_t> planned_;      ///< LayerBatches::fill_version of each layer in fills_
   std::array<std::vector<FillDraw>, Batch<char>::kBuckets> fills_;  ///< per bucket, lowest first
 };
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <string>
 
+#include "render/gl/storage.h"
+
 namespace terrella {
 namespace {
 constexpr int kWidest_px = 16384;
@@ -21,6 +23,7 @@ Result<NightLights> NightLights::create(const GreyPicture& map) {
   const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<unsigned>(side_px)));
   gl::Texture texture = gl::make_texture(GL_TEXTURE_CUBE_MAP);
   glTextureStorage2D(texture.name(), levels, GL_R8, side_px, side_px);
+  if (!gl::has_storage(texture)) return Error{"the driver has no memory for a map of night lights"};
   GLint alignment = 4;
   glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

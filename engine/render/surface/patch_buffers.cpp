@@ -1,6 +1,7 @@
 #include "render/surface/patch_buffers.h"
 
 #include "geo/scaled_space.h"
+#include "render/gl/storage.h"
 #include "surface/slope_window.h"
 
 namespace terrella {
@@ -15,33 +16,39 @@ PatchBuffers::PatchBuffers(int segments, const TileGrid* heights)
       index_buffer_(gl::make_buffer()) {
   glNamedBufferStorage(index_buffer_.name(), static_cast<GLsizeiptr>(indices_.indices.size() * sizeof(std::uint16_t)),
                        indices_.indices.data(), 0);
-  grow();
+  points_.resize(static_cast<std::size_t>(vertices_per_patch_));
+  static_cast<void>(grow());  // place_of() tries again
 }
 
-void PatchBuffers::grow() {
+bool PatchBuffers::grow() {
   const int capacity = capacity_ == 0 ? kFirstCapacity : 2 * capacity_;
-  const auto enlarge = [&](gl::Buffer& buffer, std::size_t vertex_bytes) {
+  const auto enlarged = [&](const gl::Buffer& buffer, std::size_t vertex_bytes) {
     const auto bytes = [&](int patches) {
       return static_cast<GLsizeiptr>(patches) * vertices_per_patch_ * static_cast<GLsizeiptr>(vertex_bytes);
     };
     gl::Buffer larger = gl::make_buffer();
     glNamedBufferStorage(larger.name(), bytes(capacity), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (!gl::has_storage(larger, static_cast<std::size_t>(bytes(capacity)))) return gl::Buffer();
     if (buffer) glCopyNamedBufferSubData(buffer.name(), larger.name(), 0, 0, bytes(used_));
-    buffer = std::move(larger);
+    return larger;
   };
-  enlarge(vertices_, sizeof(PatchVertex));
-  if (heights_) enlarge(height_offsets_, sizeof(glm::vec2));
+  gl::Buffer vertices = enlarged(vertices_, sizeof(PatchVertex));
+  gl::Buffer offsets = heights_ ? enlarged(height_offsets_, sizeof(glm::vec2)) : gl::Buffer();
+  if (!vertices || (heights_ && !offsets)) return false;
+  vertices_ = std::move(vertices);
+  height_offsets_ = std::move(offsets);
   points_.resize(static_cast<std::size_t>(capacity) * static_cast<std::size_t>(vertices_per_patch_));
   capacity_ = capacity;
+  return true;
 }
 
 int PatchBuffers::free_place(std::uint64_t frame) {
   if (used_ < capacity_) return used_++;
+  const bool is_full = by_age_.empty() || by_age_.back().last_drawn + views_ > frame;
+  if (is_full && grow()) return used_++;
+  if (is_full) refused_in_ = frame;
+  if (by_age_.empty()) return -1;
   const Place oldest = by_age_.back();
-  if (oldest.last_drawn + views_ > frame) {
-    grow();
-    return used_++;
-  }
   places_.erase(oldest.mesh);
   by_age_.pop_back();
   return oldest.place;
@@ -69,6 +76,7 @@ int PatchBuffers::place_of(const PatchTree& tree, const PatchNode& node, std::ui
     return found->second->place;
   }
   const int place = free_place(frame);
+  if (place < 0) return 0;
   fill(tree, node, place);
   by_age_.push_front({mesh, place, frame});
   places_[mesh] = by_age_.begin();

@@ -31,6 +31,8 @@ class PatchBuffers {
     return {points_.data() + static_cast<std::size_t>(place * vertices_per_patch_),
             static_cast<std::size_t>(vertices_per_patch_)};
   }
+  /// False if the driver has no memory for the patches of a frame, which then cannot be drawn.
+  [[nodiscard]] bool has_memory(std::uint64_t frame) const { return refused_in_ != frame; }
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
   [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
@@ -53,7 +55,7 @@ class PatchBuffers {
     std::uint64_t last_drawn = 0;
   };
   int free_place(std::uint64_t frame);
-  void grow();
+  [[nodiscard]] bool grow();
   void fill(const PatchTree& tree, const PatchNode& node, int place);
 
   std::optional<TileGrid> heights_;
@@ -62,6 +64,7 @@ class PatchBuffers {
   gl::Buffer vertices_, height_offsets_;
   std::vector<glm::vec3> points_;
   gl::Buffer index_buffer_;
+  std::uint64_t refused_in_ = 0;  ///< last frame in which the driver refused memory
   int capacity_ = 0;
   int used_ = 0;
   std::uint64_t views_ = 1;

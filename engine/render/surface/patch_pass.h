@@ -52,7 +52,8 @@ struct RenderOptions {
 struct FrameCounts {
   int draw_calls = 0;
   long triangles = 0;
-  bool no_memory = false;  ///< the driver has refused memory for a part of the picture
+  bool no_memory = false;         ///< the driver has refused memory for a part of the picture
+  bool objects_left_out = false;  ///< the driver has refused memory for an object layer
 };
 
 /// Air, light and limb of the surface in a picture. Programs and draws follow from them.

@@ -29,6 +29,22 @@ TexelFormat format_of(const SlotLayout& layout) {
   return {GL_R32F, GL_RED, GL_FLOAT, 4};
 }
 
+/// A limit of the driver.
+int most(GLenum limit) {
+  GLint value = 256;
+  glGetIntegerv(limit, &value);
+  return value;
+}
+
+/// The place of a slot: the corner of its mip `k`, and its layer.
+struct SlotCorner {
+  GLint x, y, layer;
+};
+SlotCorner corner_of(const SlotLayout& layout, int slot, int k) {
+  const int side = layout.slot_px() >> k, at = slot >> TileTextures::kLayerBits;
+  return {(at & 3) * side, (at >> 2) * side, slot & ((1 << TileTextures::kLayerBits) - 1)};
+}
+
 /// Returns the number of texels around the planet in the tiles of a level and squeeze, if the columns close at ±180°.
 std::optional<std::int64_t> texels_around(const TileGrid& grid, int level, int squeeze) {
   const double exact = std::ldexp(360.0 / tile_span_deg(grid, level) * grid.tile_px, -squeeze);
@@ -53,14 +69,37 @@ std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int
 
 TileTextures::TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes)
     : grid_(grid), layout_(layout), mips_(mips) {
+  layout_.slots_a_side = slots_a_side_for(budget_bytes);
   most_slots_ = slots_for(budget_bytes);
   grow();
 }
 
+// As few as the budget needs. Each mip of a slot must begin at a whole texel and have a gutter.
+int TileTextures::slots_a_side_for(std::size_t bytes) const {
+  const auto layers = static_cast<std::size_t>(std::min(most(GL_MAX_ARRAY_TEXTURE_LAYERS), 1 << kLayerBits));
+  const int coarsest = 1 << (mips_ - 1);
+  const bool whole = layout_.slot_px() % coarsest == 0 && layout_.gutter_px >= coarsest;
+  std::size_t side = 1;
+  while (whole && side < kMostSlotsASide && bytes / slot_bytes() > layers * side * side &&
+         2 * static_cast<int>(side) * layout_.slot_px() <= most(GL_MAX_TEXTURE_SIZE)) {
+    side *= 2;
+  }
+  return static_cast<int>(side);
+}
+
+// Whole layers.
 int TileTextures::slots_for(std::size_t bytes) const {
-  GLint most_layers = 256;
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-  return static_cast<int>(std::clamp<std::size_t>(bytes / slot_bytes(), 16, static_cast<std::size_t>(most_layers)));
+  const auto a_layer = static_cast<std::size_t>(layout_.slots_a_layer());
+  const auto layers = static_cast<std::size_t>(std::min(most(GL_MAX_ARRAY_TEXTURE_LAYERS), 1 << kLayerBits));
+  const std::size_t fit = std::clamp<std::size_t>(bytes / slot_bytes() / a_layer, (16 + a_layer - 1) / a_layer, layers);
+  return static_cast<int>(fit * a_layer);
+}
+
+// Returns the slot that is the n-th to be used: layer by layer.
+int TileTextures::slot(int number) const {
+  const int a_layer = layout_.slots_a_layer(), in_layer = number % a_layer;
+  return number / a_layer | (in_layer % layout_.slots_a_side) << kLayerBits |
+         (in_layer / layout_.slots_a_side) << (kLayerBits + 2);
 }
 
 void TileTextures::set_empty(Empty empty) {
@@ -83,32 +122,40 @@ void TileTextures::paint_empty() {
 
 gl::Texture TileTextures::make_array(int slots) const {
   gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(array.name(), mips_, format_of(layout_).stored, layout_.slot_px(), layout_.slot_px(), slots);
+  glTextureStorage3D(array.name(), mips_, format_of(layout_).stored, layout_.layer_px(), layout_.layer_px(),
+                     slots / layout_.slots_a_layer());
   return gl::has_storage(array) ? std::move(array) : gl::Texture();
 }
 
-// Copies slots with all mips to those that begin at `slot`.
-void TileTextures::copy_slot(const gl::Texture& from, int from_slot, int slot, int slots) const {
+// Copies the first layers with all mips.
+void TileTextures::copy_layers(const gl::Texture& from, int layers) const {
   for (int k = 0; k < mips_; ++k) {
-    const int side = layout_.slot_px() >> k;
-    glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, from_slot, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0,
-                       0, slot, side, side, slots);
+    const int side = layout_.layer_px() >> k;
+    glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, texture_.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0,
+                       side, side, layers);
   }
 }
 
 void TileTextures::set_budget(std::size_t bytes) {
-  most_slots_ = slots_for(bytes);
   memory_refused_ = false;
-  if (slots_ > most_slots_) shrink();
+  const int slots_a_side = std::max(slots_a_side_for(bytes), layout_.slots_a_side);
+  if (slots_a_side > layout_.slots_a_side) make_anew(slots_a_side, slots_);
+  most_slots_ = slots_for(bytes);
+  if (slots_ > most_slots_) make_anew(slots_a_side, most_slots_);
 }
 
-// Keeps the tiles of the coarsest level first, then the most recently drawn. The larger array stays if there is no room
-// for both.
-void TileTextures::shrink() {
-  gl::Texture smaller = make_array(most_slots_);
-  if (!smaller) {
+// Makes the array with so many slots, or more to fill the last layer. Keeps the tiles of the coarsest level first, then
+// the most recently drawn. The array stays as it is if there is no room for both.
+void TileTextures::make_anew(int slots_a_side, int slots) {
+  const SlotLayout before = layout_;
+  layout_.slots_a_side = slots_a_side;
+  const int a_layer = layout_.slots_a_layer();
+  slots = (slots + a_layer - 1) / a_layer * a_layer;
+  gl::Texture array = make_array(slots);
+  if (!array) {
     memory_refused_ = true;
     most_slots_ = slots_;
+    layout_ = before;
     return;
   }
   std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
@@ -119,17 +166,22 @@ void TileTextures::shrink() {
     const bool a_root = a.first.level == grid_.min_level, b_root = b.first.level == grid_.min_level;
     return a_root != b_root ? a_root : a.second->last_drawn > b.second->last_drawn;
   });
-  slots_ = most_slots_;
+  slots_ = slots;
   used_ = 1;
-  const gl::Texture larger = std::exchange(texture_, std::move(smaller));
+  const gl::Texture old = std::exchange(texture_, std::move(array));
   paint_empty();
   for (const auto& [id, entry] : tiles) {
     if (used_ == slots_) {
       residency_.erase(id);
       continue;
     }
-    const int from = std::exchange(entry->slot, used_++);
-    copy_slot(larger, from, entry->slot);
+    const int from_slot = std::exchange(entry->slot, slot(used_++));
+    for (int k = 0; k < mips_; ++k) {
+      const SlotCorner from = corner_of(before, from_slot, k), to = corner_of(layout_, entry->slot, k);
+      glCopyImageSubData(old.name(), GL_TEXTURE_2D_ARRAY, k, from.x, from.y, from.layer, texture_.name(),
+                         GL_TEXTURE_2D_ARRAY, k, to.x, to.y, to.layer, layout_.slot_px() >> k, layout_.slot_px() >> k,
+                         1);
+    }
   }
 }
 
@@ -142,14 +194,16 @@ std::size_t TileTextures::slot_bytes() const {
 
 // If there is no memory for twice as many slots, tries to get fewer more, and then goes on with those that are there.
 bool TileTextures::grow() {
-  const int wanted = slots_ == 0 ? kFirstSlots : 2 * slots_;
-  for (int more = std::min(most_slots_, wanted) - slots_; more > 0; more = more > kLeastMore ? more / 2 : 0) {
+  const int wanted = slots_ == 0 ? kFirstSlots : 2 * slots_, a_layer = layout_.slots_a_layer();
+  const int least = std::max(kLeastMore, a_layer);
+  for (int more = std::min(most_slots_, wanted) - slots_; more > 0;
+       more = more > least ? more / 2 / a_layer * a_layer : 0) {
     gl::Texture larger = make_array(slots_ + more);
     memory_refused_ = memory_refused_ || !larger;
     if (!larger) continue;
     std::swap(texture_, larger);
     if (larger) {
-      copy_slot(larger, 0, 0, slots_);
+      copy_layers(larger, slots_ / a_layer);
     } else {
       paint_empty();
     }
@@ -161,7 +215,7 @@ bool TileTextures::grow() {
 }
 
 int TileTextures::take_slot(std::uint64_t frame) {
-  if (used_ < slots_ || grow()) return used_++;
+  if (used_ < slots_ || grow()) return slot(used_++);
   const std::optional<TileId> oldest = residency_.to_evict(frame, grid_.min_level);
   if (!oldest) return -1;
   const int slot = residency_.entry(*oldest).slot;
@@ -177,7 +231,8 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
   if (format.bytes == 2) glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
   for (int k = 0; k < mips_ && k < static_cast<int>(mips.size()); ++k) {
     const int side = layout_.mip_px(k);
-    glTextureSubImage3D(texture_.name(), k, 0, 0, slot, side, side, 1, format.channels, format.type,
+    const SlotCorner at = corner_of(layout_, slot, k);
+    glTextureSubImage3D(texture_.name(), k, at.x, at.y, at.layer, side, side, 1, format.channels, format.type,
                         mips[static_cast<std::size_t>(k)].data());
   }
   if (format.bytes == 2) glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -194,11 +249,12 @@ double TileTextures::number_at(const TileId& id, int x, int y) const {
   assert(layout_.numbers && entry != nullptr && entry->state == TileState::resident);
   const TexelFormat format = format_of(layout_);
   const int gutter = layout_.gutter_px;
+  const SlotCorner at = corner_of(layout_, entry->slot, 0);
   std::uint16_t code = 0;
   float number = 0.0F;
   void* texel = layout_.numbers->codes ? static_cast<void*>(&code) : &number;
-  glGetTextureSubImage(texture_.name(), 0, gutter + x, gutter + y, entry->slot, 1, 1, 1, format.channels, format.type,
-                       static_cast<GLsizei>(format.bytes), texel);
+  glGetTextureSubImage(texture_.name(), 0, at.x + gutter + x, at.y + gutter + y, at.layer, 1, 1, 1, format.channels,
+                       format.type, static_cast<GLsizei>(format.bytes), texel);
   return number_of(*layout_.numbers, layout_.numbers->codes ? code : static_cast<double>(number));
 }
 
@@ -255,19 +311,18 @@ void TileTextures::stretch_gutter(const TileId& into, const TileId& from, int dy
     const int from_x = narrower ? g : g + half * t / 2, from_w = narrower ? t : t / 2;
     const int into_x = narrower ? g + half * t / 2 : g, into_w = narrower ? t / 2 : t;
     const int from_y = dy < 0 ? t : g, into_y = dy < 0 ? 0 : g + t;
-    glNamedFramebufferTextureLayer(stretch_from_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
-                                   residency_.entry(from).slot);
-    glNamedFramebufferTextureLayer(stretch_into_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k,
-                                   residency_.entry(into).slot);
-    glBlitNamedFramebuffer(stretch_from_.name(), stretch_into_.name(), from_x, from_y, from_x + from_w, from_y + g,
-                           into_x, into_y, into_x + into_w, into_y + g, GL_COLOR_BUFFER_BIT,
-                           layout_.numbers ? GL_NEAREST : GL_LINEAR);
+    const SlotCorner a = corner_of(layout_, residency_.entry(from).slot, k);
+    const SlotCorner b = corner_of(layout_, residency_.entry(into).slot, k);
+    glNamedFramebufferTextureLayer(stretch_from_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k, a.layer);
+    glNamedFramebufferTextureLayer(stretch_into_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), k, b.layer);
+    glBlitNamedFramebuffer(stretch_from_.name(), stretch_into_.name(), a.x + from_x, a.y + from_y,
+                           a.x + from_x + from_w, a.y + from_y + g, b.x + into_x, b.y + into_y, b.x + into_x + into_w,
+                           b.y + into_y + g, GL_COLOR_BUFFER_BIT, layout_.numbers ? GL_NEAREST : GL_LINEAR);
   }
 }
 
 // Copies the strip of `from` beside `into` on side (dx, dy) into that side's gutter, on every mip.
 void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, int dy) {
-  const int to_layer = residency_.entry(into).slot, from_layer = residency_.entry(from).slot;
   // If the last column extends over +180°, its own texels end before its edge.
   int end_px = grid_.tile_px;
   const std::int64_t across = squeezed_columns(grid_, into.level, into.squeeze);
@@ -283,9 +338,11 @@ void TileTextures::fill_gutter(const TileId& into, const TileId& from, int dx, i
     const auto strip = [g, t](int d) { return d == 0 ? t : g; };
     const auto from_edge = [g](int d, int last) { return d < 0 ? last : g; };
     const auto to_edge = [g, t](int d) { return d < 0 ? 0 : d > 0 ? g + t : g; };
-    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, from_edge(dx, end), from_edge(dy, t), from_layer,
-                       texture_.name(), GL_TEXTURE_2D_ARRAY, k, to_edge(dx), to_edge(dy), to_layer, strip(dx),
-                       strip(dy), 1);
+    const SlotCorner a = corner_of(layout_, residency_.entry(from).slot, k);
+    const SlotCorner b = corner_of(layout_, residency_.entry(into).slot, k);
+    glCopyImageSubData(texture_.name(), GL_TEXTURE_2D_ARRAY, k, a.x + from_edge(dx, end), a.y + from_edge(dy, t),
+                       a.layer, texture_.name(), GL_TEXTURE_2D_ARRAY, k, b.x + to_edge(dx), b.y + to_edge(dy), b.layer,
+                       strip(dx), strip(dy), 1);
   }
 }
 

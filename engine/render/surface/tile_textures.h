@@ -13,22 +13,30 @@
 
 namespace terrella {
 
-/// The layout of a texture slot: tile_px texels per side inside a gutter, slot_px per side in total.
+/// The layout of a texture slot: tile_px texels per side inside a gutter, slot_px per side in total. A layer of the
+/// array texture is a square of slots.
 struct SlotLayout {
   int tile_px = 256;
   int gutter_px = 8;
+  int slots_a_side = 1;                     ///< of an array layer: a power of two, at most kMostSlotsASide
   std::optional<NumberSlots> numbers = {};  ///< set: texels are numbers, R16 or R32F; none: pictures, RGBA8
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
+  [[nodiscard]] int layer_px() const { return slots_a_side * slot_px(); }
+  [[nodiscard]] int slots_a_layer() const { return slots_a_side * slots_a_side; }
   /// Texels per side that a tile fills in a slot's mip: less than the mip's size if the gutter does not halve evenly.
   [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
-/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. There
-/// are fewer slots if the driver's array textures have fewer layers, or if the driver has no memory for more. Slot
-/// 0 is a plain colour or transparent, for numbers "no data", for places without imagery. A slot's gutter receives the
-/// texels of neighbouring tiles as they arrive, so that filtering continues across a tile's border. thread: main
+/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. If
+/// the driver's array textures have too few layers for the budget, a layer holds several slots side by side. There are
+/// fewer slots than the budget allows if the driver has no memory for more. Slot 0 is a plain colour or transparent,
+/// for numbers "no data", for places without imagery. A slot's gutter receives the texels of neighbouring tiles as they
+/// arrive, so that filtering continues across a tile's border. thread: main
 class TileTextures {
  public:
+  /// A slot is a number of 16 bits: its layer in the array, its column (2 bits) and its row (2 bits) in that layer.
+  static constexpr int kLayerBits = 12, kMostSlotsASide = 4;
+
   TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes);
 
   /// The content of slot 0. Initially it is the plain colour.
@@ -61,11 +69,13 @@ class TileTextures {
  private:
   /// Makes an array; none if the driver has no memory for it.
   [[nodiscard]] gl::Texture make_array(int slots) const;
-  void copy_slot(const gl::Texture& from, int from_slot, int slot, int slots = 1) const;
+  void copy_layers(const gl::Texture& from, int layers) const;
   int take_slot(std::uint64_t frame);
+  [[nodiscard]] int slot(int number) const;
+  [[nodiscard]] int slots_a_side_for(std::size_t bytes) const;
   [[nodiscard]] int slots_for(std::size_t bytes) const;
   bool grow();
-  void shrink();
+  void make_anew(int slots_a_side, int slots);
   void paint_empty();
   [[nodiscard]] bool is_resident(const TileId& id) const;
   void join_gutters(const TileId& id);

@@ -15,13 +15,13 @@
 
 namespace terrella {
 
-/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word. Bits 0 to 15 are the array layer. Bits
-/// 16 to 23 are the number of cells that the cell's tile spans along a meridian, as a power of two; bits 24 to 31 the
-/// same along the parallel. The low bits of the cell's column and row tell the cell's part of that tile
-/// (shaders/surface/patch_common.glsl).
+/// One cell of a window on the GPU, 32 bits so that a fragment fetches one word. Bits 0 to 15 are the slot, whose lower
+/// 12 bits are its array layer. Bits 16 to 23 are the number of cells that the cell's tile spans along a meridian, as a
+/// power of two; bits 24 to 31 the same along the parallel. The low bits of the cell's column and row tell the cell's
+/// part of that tile (shaders/surface/patch_common.glsl).
 using WindowCell = std::uint32_t;
-[[nodiscard]] constexpr WindowCell window_cell(int layer, int log2_rows, int log2_columns) {
-  return static_cast<WindowCell>(layer) | static_cast<WindowCell>(log2_rows) << 16U |
+[[nodiscard]] constexpr WindowCell window_cell(int slot, int log2_rows, int log2_columns) {
+  return static_cast<WindowCell>(slot) | static_cast<WindowCell>(log2_rows) << 16U |
          static_cast<WindowCell>(log2_columns) << 24U;
 }
 
