@@ -18,7 +18,7 @@ namespace terrella {
 struct SlotLayout {
   int tile_px = 256;
   int gutter_px = 8;
-  int slots_a_side = 1;                     ///< of an array layer: a power of two, at most kMostSlotsASide
+  int slots_a_side = 1;  ///< slots per side of an array layer: a power of two, at most kMostSlotsASide
   std::optional<NumberSlots> numbers = {};  ///< set: texels are numbers, R16 or R32F; none: pictures, RGBA8
   [[nodiscard]] int slot_px() const { return tile_px + 2 * gutter_px; }
   [[nodiscard]] int layer_px() const { return slots_a_side * slot_px(); }
