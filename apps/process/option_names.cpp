@@ -11,7 +11,8 @@ namespace {
 
 using Row = std::pair<std::string_view, std::string_view>;
 
-/// Settings of the libraries, and the options that set them. tests/structure/test_messages.py finds one without a row.
+/// Settings and work of the libraries, and the options that set them or commands that do it.
+/// tests/structure/test_messages.py finds one without a row.
 constexpr std::array kOptions = {
     Row{"band", "--band"},
     Row{"bands", "--bands"},
@@ -21,6 +22,7 @@ constexpr std::array kOptions = {
     Row{"cache", "--cache"},
     Row{"colormap", "--colormap"},
     Row{"crs", "--crs"},
+    Row{"cut", "terrella cut"},
     Row{"elevation", "--elevation"},
     Row{"force", "--force"},
     Row{"format", "--format"},
@@ -31,6 +33,7 @@ constexpr std::array kOptions = {
     Row{"mosaic", "--mosaic"},
     Row{"nodata", "--nodata"},
     Row{"offline", "--offline"},
+    Row{"preload", "terrella preload"},
     Row{"projection", "--projection"},
     Row{"root_span_deg", "--root-span"},
     Row{"scale", "--scale"},
@@ -38,7 +41,7 @@ constexpr std::array kOptions = {
     Row{"stretch", "--stretch"},
     Row{"tile_px", "--tile-size"},
     Row{"time", "--layer-time"},
-    Row{"verify", "--verify"},
+    Row{"verify", "terrella info --verify"},
     Row{"west_deg", "--west"},
 };
 

@@ -44,7 +44,7 @@ Result<ElevationSource> ElevationSource::open(std::shared_ptr<TileSource> tiles,
   if (Status good = check_grid(info.grid, name); !good) return good.error();
   if (!info.numbers) {
     return Error{
-        fmt::format("{}: its tiles are pictures, not heights; `terrella cut ‹elevation›` makes tiles of heights of a "
+        fmt::format("{}: its tiles are pictures, not heights; ‹cut› ‹elevation› makes tiles of heights of a "
                     "picture of 16 bits or floats, gdal_translate -of GPKG of a raster of Int16 or Float32",
                     name)};
   }

@@ -179,7 +179,7 @@ Error cache_error(const fs::path& path, const WriteError& error) {
   if (error.problem == WriteProblem::full) advice = "; make space; what was stored before is safe";
   if (error.problem == WriteProblem::busy) advice = "; close what holds it; what was stored before is safe";
   if (error.problem == WriteProblem::damaged) advice = "; what was stored may be lost; a new run sets the file aside";
-  if (error.problem == WriteProblem::other) advice = "; `terrella info ‹verify›` tells what is left of it";
+  if (error.problem == WriteProblem::other) advice = "; ‹verify› tells what is left of it";
   return Error{fmt::format("{}: the cache cannot be written: {}{}", path.string(), error.message, advice)};
 }
 

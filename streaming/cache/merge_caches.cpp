@@ -162,8 +162,7 @@ struct Progress {
 Status copy_rows(const fs::path& cache, const char* sql, MergedFile& merged, MergeSummary& summary,
                  Progress& progress) {
   const auto unreadable = [&](const SqlError& error) {
-    return Error{fmt::format("{}: the cache cannot be read: {}; `terrella info ‹verify›` says more", cache.string(),
-                             error.message)};
+    return Error{fmt::format("{}: the cache cannot be read: {}; ‹verify› says more", cache.string(), error.message)};
   };
   Result<SqliteReader, SqlError> reader = SqliteReader::open(cache, kMaxTileBytes);
   if (!reader) return unreadable(reader.error());

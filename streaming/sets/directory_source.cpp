@@ -188,7 +188,7 @@ Result<std::unique_ptr<TileSource>> open_directory(const fs::path& path) {
   return Error{fmt::format(
       "{}: {}, so it is not a tile set. A directory must hold tiles as {{z}}/{{x}}/{{y}}.jpg, .png or .webp and "
       "beside them {} (written "
-      "by `terrella cut`) or the {} of a geodetic TMS",
+      "by ‹cut›) or the {} of a geodetic TMS",
       path.string(),
       empty ? "the directory is empty" : "the directory holds no tileset.json and no tilemapresource.xml", kTileSetFile,
       kTmsFile)};

@@ -159,7 +159,7 @@ Error between_tiles(const Extent& extent, const TileMatrix& finest, double top_d
   return Error{fmt::format(
       "{}: its tiles go round the planet and begin at ({}°, {}°), which is no whole number of tiles ({}°) from "
       "(-180°, 90°). Write it again with "
-      "gdal_translate -of GPKG -co TILING_SCHEME=InspireCRS84Quad, or cut the picture itself with `terrella cut`",
+      "gdal_translate -of GPKG -co TILING_SCHEME=InspireCRS84Quad, or cut the picture itself with ‹cut›",
       where, extent.west, extent.north, finest.span_deg)};
 }
 

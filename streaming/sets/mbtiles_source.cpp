@@ -154,7 +154,7 @@ double root_span_of(const std::optional<TileRange>& finest, const TileGrid& grid
 constexpr const char* kCutThePicture =
     "Cut the picture that it was made from instead: `gdalwarp -t_srs EPSG:4326 PICTURE new.tif -tr 0.1 0.1 -tap` if "
     "that is not in "
-    "EPSG:4326, then `terrella cut new.tif -o new.gpkg`";
+    "EPSG:4326, then ‹cut› new.tif";
 
 /// Refuses tiles beyond the last column or row of the planet. They belong to another grid, or are counted in
 /// another way.

@@ -22,10 +22,8 @@ Result<std::unique_ptr<TileSource>> open_stored_tile_set(const std::filesystem::
   if (error) return Error{fmt::format("{}: {}", path.string(), error.message())};
   if (std::filesystem::is_directory(status)) return open_directory(path);
   if (read_cache_source(path).starts_with(kRangesKey)) {
-    return Error{
-        fmt::format("{0}: keeps parts of a TIFF on a server; show that with: terrella view ADDRESS ‹cache› {0} "
-                    "‹offline›",
-                    path.string())};
+    return Error{fmt::format("{0}: keeps parts of a TIFF on a server; show that TIFF with ‹cache› {0} and ‹offline›",
+                             path.string())};
   }
   if (is_sqlite_file(path)) return open_geopackage(path, geodetic_mbtiles);
   const auto head = read_head(path, kFormatHeadBytes);

@@ -72,7 +72,7 @@ Result<TileGrid> grid_for(const GroundMap& map, const RasterInfo& raster, const 
   if (!extent || !per_degree) {
     return Error{where +
                  ": none of its pixels has a place on the planet; its transform or its coordinate system is "
-                 "wrong (terrella info shows both)"};
+                 "wrong (gdalinfo shows both)"};
   }
   const double pixel_deg = pixel_size_deg(*per_degree);
   int level = 0;

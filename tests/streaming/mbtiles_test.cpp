@@ -83,7 +83,7 @@ TEST(Mbtiles, MustSayThatItIsGeodetic) {
   expect_mbtiles_refused(folder / "web.mbtiles", "it should be in Web Mercator, but level 1 has columns 0 to 3");
   write_mbtiles(folder / "utm.mbtiles", grid, metadata("crs", "EPSG:32632"));
   expect_mbtiles_refused(folder / "utm.mbtiles", "its crs is EPSG:32632");
-  expect_mbtiles_refused(folder / "utm.mbtiles", "terrella cut");
+  expect_mbtiles_refused(folder / "utm.mbtiles", "‹cut›");
   write_mbtiles(folder / "srs.mbtiles", grid, metadata("srs", "CRS:84"));
   EXPECT_TRUE(open_tile_set(folder / "srs.mbtiles"));
 }
@@ -101,7 +101,7 @@ TEST(Mbtiles, TilesBeyondThePlanetAreOfAnotherGrid) {
     test::insert_tile(file, 1, place.column, place.row, png);
     expect_mbtiles_refused(file, "a grid of its own");
     expect_mbtiles_refused(file, "at most 4 and 2");
-    expect_mbtiles_refused(file, "terrella cut");
+    expect_mbtiles_refused(file, "‹cut›");
   }
 }
 

@@ -19,11 +19,12 @@ def texts():
 
 
 class Messages(unittest.TestCase):
-    def test_libraries_name_no_option_of_the_program(self):
-        self.assertEqual([(place, text) for place, text in texts() if re.search(r'--[a-z]', text)], [])
+    def test_libraries_name_no_option_and_no_command_of_the_program(self):
+        named = re.compile(r'--[a-z]|\bterrella (?:bench|cut|info|merge|preload|render|view)\b')
+        self.assertEqual([(place, text) for place, text in texts() if named.search(text)], [])
 
     def test_each_setting_that_a_message_names_has_an_option(self):
-        table = set(re.findall(r'Row\{"(\w+)", "--[a-z-]+"\}', (SOURCE / 'apps/process/option_names.cpp').read_text()))
+        table = set(re.findall(r'Row\{"(\w+)", "(?:--|terrella )[a-z -]+"\}', (SOURCE / 'apps/process/option_names.cpp').read_text()))
         named = {(place, field) for place, text in texts() for field in re.findall('‹(.*?)›', text)}
         self.assertGreater(len(named), 30)
         self.assertEqual({(place, field) for place, field in named if field not in table}, set())

@@ -222,7 +222,7 @@ Result<TileRowsInput> open_tile_rows(std::unique_ptr<TileSource> tiles, int jobs
     return Error{fmt::format("{}: only tiles with evenly spaced parallels can be cut", where)};
   }
   if (tiles->remote() != nullptr) {
-    return Error{fmt::format("{}: tiles of a server cannot be cut; store them with terrella preload", where)};
+    return Error{fmt::format("{}: tiles of a server cannot be cut; store them with ‹preload›", where)};
   }
   auto rows = std::make_unique<TileRows>(std::move(tiles), jobs, numbers, where);
   const GeoRect bounds = bounds_of(rows->range());
