@@ -58,10 +58,9 @@ struct CutShard {
   int count = 1;  ///< [1, 100000]
 };
 
-/// A picture that is no local file, such as a raster on a server.
+/// A picture that is no local file, such as a raster on a server. CutOptions::picture has its head.
 struct CutRaster {
-  PictureFile picture;  ///< name, size and the opened raster
-  std::string key;      ///< differs if the pixels may differ
+  std::string key;  ///< differs if the pixels may differ
   /// Opens the raster. Its blocks are read as those of a local one.
   std::function<Result<std::unique_ptr<RasterSource>>(const CrsPlace& place, const RasterOptions& options)> open;
 };
@@ -86,6 +85,7 @@ struct CutWatch {
 
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
+  std::optional<PictureFile> picture = {};      ///< the one file of `images`, if it is open already
   std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
   std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
   int tile_px = 256;                            ///< even, [16, 4096]

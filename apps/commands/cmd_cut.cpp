@@ -95,8 +95,7 @@ Status open_address(CutCommand& command) {
   if (command.images.size() > 1) return Error{"an address is cut alone; download the parts of a picture first"};
   const auto tiff = open_remote_picture({.source = {.address = url}});
   if (!tiff) return tiff.error();
-  command.cut.images = {tiff->file->name()};
-  command.cut.raster = cut_raster(*tiff);
+  set_raster(command.cut, *tiff);
   return Done{};
 }
 
@@ -106,9 +105,9 @@ void set_reading(CutCommand& command) {
     command.heights.nodata = command.numbers.nodata;
     command.cut.elevation = command.heights;
   } else {
-    const auto& raster = command.cut.raster;
+    const auto& picture = command.cut.picture;
     set_numbers(command.cut, command.numbers,
-                raster ? holds_numbers(*raster->picture.raster) : any_holds_numbers(command.cut.images.front()));
+                picture ? holds_numbers(*picture->raster) : any_holds_numbers(command.cut.images.front()));
   }
 }
 

@@ -59,10 +59,11 @@ std::string words_text(const PlaceWords& words) {
 void try_out(PictureFacts& facts, const RemotePicture* tiff) {
   CutOptions cut;
   cut.images = {facts.file.path};
+  cut.picture = facts.file;
   if (facts.crs) cut.body = stated_body(*facts.crs);
   set_place(cut, facts.words);
   if (facts.is_numbers) cut.numbers = CutNumbers{};
-  if (tiff != nullptr) cut.raster = cut_raster(*tiff);
+  if (tiff != nullptr) set_raster(cut, *tiff);
   const std::string body = cut.body.empty() ? std::string() : " --body " + cut.body;
   const std::string name = shell_word(facts.file.path.string()) + body + words_text(facts.words);
   facts.command = fmt::format("terrella view {}", name);

@@ -126,6 +126,7 @@ Result<DirectFile> try_in_place(const fs::path& picture, const SourceOptions& op
     raster = *std::move(file);
   }
   cut = cut_options(picture, options, raster && holds_numbers(*raster->raster));
+  cut.picture = raster;
   return raster ? open_in_place(*raster, cut, options) : Result<DirectFile>(DirectFile{});
 }
 

@@ -159,14 +159,16 @@ Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const Dire
   return direct_tiles(std::move(opened.raster), opened.place, direct, opened.tiff.file->name());
 }
 
-CutRaster cut_raster(const RemotePicture& tiff) {
-  CutRaster cut{.picture = tiff.picture, .key = tiff.file->cache_key(), .open = {}};
-  cut.open = [tiff](const CrsPlace& place, const RasterOptions& reading) -> Result<std::unique_ptr<RasterSource>> {
-    auto raster = RemoteTiff::make(tiff.file, tiff.picture.raster, place, reading);
-    if (!raster) return raster.error();
-    return waiting_raster(*std::move(raster), [] { return !StopSignals::came(); });
+void set_raster(CutOptions& cut, const RemotePicture& tiff) {
+  CutRaster raster{.key = tiff.file->cache_key(), .open = {}};
+  raster.open = [tiff](const CrsPlace& place, const RasterOptions& reading) -> Result<std::unique_ptr<RasterSource>> {
+    auto opened = RemoteTiff::make(tiff.file, tiff.picture.raster, place, reading);
+    if (!opened) return opened.error();
+    return waiting_raster(*std::move(opened), [] { return !StopSignals::came(); });
   };
-  return cut;
+  cut.images = {tiff.picture.path};
+  cut.picture = tiff.picture;
+  cut.raster = std::move(raster);
 }
 
 DirectOptions direct_options(const SourceOptions& options) {

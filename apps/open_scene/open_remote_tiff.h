@@ -58,7 +58,7 @@ struct OpenedRemoteTiff {
 [[nodiscard]] Result<std::unique_ptr<TileSource>> tiles_of(OpenedRemoteTiff opened, const DirectOptions& direct);
 
 /// Lets `cut` read a TIFF on a server in place of a file. thread: any
-[[nodiscard]] CutRaster cut_raster(const RemotePicture& tiff);
+void set_raster(CutOptions& cut, const RemotePicture& tiff);
 
 /// The user's statements about a raster. thread: any
 [[nodiscard]] DirectOptions direct_options(const SourceOptions& options);

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxStemBytes = 80;
 /// Files beside the picture can change its place without changing its own size and time.
 Result<std::string> cache_name(const CutOptions& options) {
   const fs::path& image = options.images.front();
-  const auto picture = measure_picture(image);
+  const auto picture = picture_of(options);
   if (!picture) return picture.error();
   const auto place = find_place(options, *picture);
   if (!place) return place.error();

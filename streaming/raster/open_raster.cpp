@@ -65,14 +65,9 @@ class FileRaster : public FileSource {
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
-    if (!has_block(info_, block)) return TileFailure{.kind = MissingKind::absent, .why = {}};
-    EncodedTile tile;
-    if (info_.numbers) {
-      tile.make_numbers = [parts = parts_, block] { return numbers_of(*parts, block); };
-    } else {
-      tile.make_picture = [parts = parts_, block] { return picture_of(*parts, block); };
-    }
-    return tile;
+    return block_tile(
+        info_, block, [parts = parts_, block] { return numbers_of(*parts, block); },
+        [parts = parts_, block] { return picture_of(*parts, block); });
   }
 
   [[nodiscard]] Result<double, TileFailure> value_at(std::int64_t column, std::int64_t row) override {
@@ -203,7 +198,12 @@ Result<std::unique_ptr<RasterSource>> open_raster(const fs::path& path, const Cr
                                                   const RasterOptions& options) {
   auto file = RasterFile::open(path.string());
   if (!file) return file.error();
-  auto source = make_file_source(*std::move(file), place, options);
+  return raster_source(*std::move(file), place, options);
+}
+
+Result<std::unique_ptr<RasterSource>> raster_source(std::shared_ptr<const RasterFile> file, const CrsPlace& place,
+                                                    const RasterOptions& options) {
+  auto source = make_file_source(std::move(file), place, options);
   if (!source) return source.error();
   return std::unique_ptr<RasterSource>(*std::move(source));
 }

@@ -39,6 +39,10 @@ struct RasterOptions {
                                                                 const CrsPlace& place,
                                                                 const RasterOptions& options = {});
 
+/// The same for a raster whose header is read. thread: any
+[[nodiscard]] Result<std::unique_ptr<RasterSource>> raster_source(std::shared_ptr<const RasterFile> file,
+                                                                  const CrsPlace& place, const RasterOptions& options);
+
 /// An opened raster as a picture whose place is to be found. thread: any
 [[nodiscard]] PictureFile as_picture(const std::shared_ptr<const RasterFile>& file);
 /// Opens a raster and measures it; reads the header alone. The error names the file, the fault and a cure. Blocks.

@@ -41,7 +41,7 @@ std::optional<EncodedTile> read_stored(fs::path log, std::uint64_t offset, std::
 
 /// A set whose tiles on the canvas's grid are resampled from the coarse raster; null if the picture has none.
 Result<std::unique_ptr<TileSource>> coarse_tiles(const CutOptions& options, const TileGrid& grid) {
-  const auto picture = measure_picture(options.images.front());
+  const auto picture = picture_of(options);
   if (!picture) return picture.error();
   auto place = find_place(options, *picture);
   if (!place) return place.error();
@@ -73,6 +73,9 @@ GrowingCut::GrowingCut(CutOptions options, PlannedCut planned)
 
 Result<std::shared_ptr<GrowingCut>> GrowingCut::start(CutOptions options, const fs::path& folder) {
   options.remark = {};
+  auto picture = picture_of(options);
+  if (!picture) return picture.error();
+  options.picture = *std::move(picture);
   auto planned = plan_pictures(options);
   if (!planned) return planned.error();
   std::shared_ptr<GrowingCut> cut(new GrowingCut(std::move(options), *std::move(planned)));

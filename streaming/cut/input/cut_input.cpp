@@ -55,7 +55,7 @@ Result<PicturePlace> warped_place(PicturePlace place, const PictureFile& picture
 }
 
 Result<CutInput> open_one(const CutOptions& options, const OpenRows& open, const std::optional<HeightPlan>& heights) {
-  const auto picture = options.raster ? options.raster->picture : measure_picture(options.images.front());
+  const auto picture = picture_of(options);
   if (!picture) return picture.error();
   auto place = find_place(options, *picture);
   if (place && options.raster) place = warped_place(*std::move(place), *picture);
@@ -136,8 +136,7 @@ Result<CutInput> open_mosaic(const CutOptions& options, const OpenRows& open, bo
 /// True if tiles need a number that means "no data": pixels may lie beside the picture.
 bool may_have_gaps(const CutOptions& options) {
   if (options.images.size() > 1 || options.mosaic || is_mosaic(options.images.front())) return true;
-  const auto picture =
-      options.raster ? Result<PictureFile>(options.raster->picture) : measure_picture(options.images.front());
+  const auto picture = picture_of(options);
   const auto place = picture ? find_place(options, *picture) : Result<PicturePlace>(picture.error());
   if (!place) return true;  // open_one() says why
   const bool whole = place->kind == PlaceKind::planet || place->kind == PlaceKind::nodes || !place->bounds;
@@ -160,7 +159,7 @@ Result<std::optional<HeightPlan>> plan_of(const CutOptions& options) {
     return Error{"heights and other numbers are written as PNG or TIFF; leave ‹format› out"};
   }
   HeightPictures pictures{.images = options.images, .many = !options.raster && is_many(options)};
-  if (options.raster) pictures.remote = options.raster->picture.raster;
+  if (options.raster) pictures.remote = options.picture->raster;
   if (is_mosaic(options.images.front())) {
     const auto list = list_of(options);
     if (!list) return list.error();

@@ -145,4 +145,8 @@ Result<PictureFile> measure_picture(const std::filesystem::path& picture) {
   return PictureFile{picture, (*rows)->info().width_px, (*rows)->info().height_px};
 }
 
+Result<PictureFile> picture_of(const CutOptions& options) {
+  return options.picture ? Result<PictureFile>(*options.picture) : measure_picture(options.images.front());
+}
+
 }  // namespace terrella

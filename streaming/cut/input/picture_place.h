@@ -55,4 +55,7 @@ struct PicturePlace {
 /// Reads the size of a picture from its head. thread: any
 [[nodiscard]] Result<PictureFile> measure_picture(const std::filesystem::path& picture);
 
+/// The first picture of a cut: as it was opened before, else measured. thread: any
+[[nodiscard]] Result<PictureFile> picture_of(const CutOptions& options);
+
 }  // namespace terrella

@@ -97,8 +97,9 @@ Result<WarpedInput> open_warped(const CutOptions& options, const PictureFile& pi
     reading.nodata = choice.nodata;
     reading.composite = choice.composite;
   }
-  auto raster = options.raster ? options.raster->open(*place.from, reading)
-                               : open_picture_raster(picture.path, *place.from, reading);
+  auto raster = options.raster   ? options.raster->open(*place.from, reading)
+                : picture.raster ? raster_source(picture.raster, *place.from, reading)
+                                 : open_picture_raster(picture.path, *place.from, reading);
   if (!raster) return raster.error();
   const bool opaque = (*raster)->info().opaque && place.placed.placement;
   WarpOptions warp{.figure = {body->ellipsoid, place.latitude, place.latitude}, .body = options.body};

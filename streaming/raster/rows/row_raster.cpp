@@ -11,14 +11,9 @@ class RowRaster : public RasterSource {
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& block) override {
-    if (!has_block(info_, block)) return TileFailure{.kind = MissingKind::absent, .why = {}};
-    EncodedTile tile;
-    if (info_.numbers) {
-      tile.make_numbers = [store = store_, block] { return stored_numbers(*store, block.x, block.y); };
-    } else {
-      tile.make_picture = [store = store_, block] { return stored_picture(*store, block.x, block.y); };
-    }
-    return tile;
+    return block_tile(
+        info_, block, [store = store_, block] { return stored_numbers(*store, block.x, block.y); },
+        [store = store_, block] { return stored_picture(*store, block.x, block.y); });
   }
 
  private:
@@ -67,6 +62,19 @@ bool has_block(const RasterInfo& info, const TileId& block) {
   const auto blocks = [](std::int64_t pixels, int each) { return (pixels + each - 1) / each; };
   return block.x < blocks(level.width_px, level.block_width_px) &&
          block.y < blocks(level.height_px, level.block_height_px);
+}
+
+Result<EncodedTile, TileFailure> block_tile(const RasterInfo& info, const TileId& block,
+                                            decltype(EncodedTile::make_numbers) numbers,
+                                            decltype(EncodedTile::make_picture) picture) {
+  if (!has_block(info, block)) return TileFailure{.kind = MissingKind::absent, .why = {}};
+  EncodedTile tile;
+  if (info.numbers) {
+    tile.make_numbers = std::move(numbers);
+  } else {
+    tile.make_picture = std::move(picture);
+  }
+  return tile;
 }
 
 std::filesystem::path temporary_folder(const std::filesystem::path& given) {

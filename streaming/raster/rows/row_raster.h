@@ -29,6 +29,11 @@ struct RowPicture {
 /// True if the raster has the block. thread: any
 [[nodiscard]] bool has_block(const RasterInfo& info, const TileId& block);
 
+/// A block whose numbers or colours are made when it is decoded; absent if the raster does not have it. thread: any
+[[nodiscard]] Result<EncodedTile, TileFailure> block_tile(const RasterInfo& info, const TileId& block,
+                                                          decltype(EncodedTile::make_numbers) numbers,
+                                                          decltype(EncodedTile::make_picture) picture);
+
 /// The folder for temporary files: `given`, or the system's if it is empty. thread: any
 [[nodiscard]] std::filesystem::path temporary_folder(const std::filesystem::path& given);
 
