@@ -15,6 +15,7 @@
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wms/wms.h"
+#include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts.h"
 #include "streaming/remote/wmts/xml_names.h"
 #include "streaming/sets/tileset_json.h"

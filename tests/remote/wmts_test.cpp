@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "streaming/remote/wmts/ogc_choices.h"
 #include "wmts_documents.h"
 
 namespace terrella {

@@ -9,7 +9,7 @@ namespace terrella {
 namespace {
 
 /// Rows of a raster, with its mask.
-class RasterRowReader : public RowReader {
+class RasterRowReader : public SeekingRows {
  public:
   /// `heights`: none for colours.
   RasterRowReader(const std::shared_ptr<const RasterFile>& file, PixelReading reading,
@@ -32,17 +32,11 @@ class RasterRowReader : public RowReader {
     return Done{};
   }
 
-  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
-    row_ += rows;
-    return Done{};
-  }
-
  private:
   RasterRows rows_;
   std::optional<HeightCoding> heights_;
   std::vector<float> numbers_;
   PictureInfo info_;
-  std::int64_t row_ = 0;
 };
 
 }  // namespace

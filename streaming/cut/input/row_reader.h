@@ -37,6 +37,18 @@ class RowReader {
   [[nodiscard]] virtual Status skip_rows(std::int64_t rows);
 };
 
+/// A reader that finds each row by its number.
+class SeekingRows : public RowReader {
+ public:
+  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
+    row_ += rows;
+    return Done{};
+  }
+
+ protected:
+  std::int64_t row_ = 0;  ///< the next row
+};
+
 /// Returns the same rows, with the last one repeated until there are `rows` rows.
 [[nodiscard]] std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows);
 

@@ -55,7 +55,7 @@ GeoRect bounds_of(const PixelRange& range) {
 /// RGBA8, or a float.
 constexpr std::size_t kPixelBytes = 4;
 
-class TileRows : public RowReader {
+class TileRows : public SeekingRows {
  public:
   TileRows(std::unique_ptr<TileSource> tiles, int jobs, const std::optional<NumberInfo>& numbers, std::string where)
       : tiles_(std::move(tiles)),
@@ -84,11 +84,6 @@ class TileRows : public RowReader {
     const auto pixels = static_cast<std::size_t>(info_.width_px);
     const std::uint8_t* from = held_.data() + static_cast<std::size_t>(y % grid_.tile_px) * pixels * kPixelBytes;
     std::memcpy(rgba.data(), from, pixels * kPixelBytes);
-    return Done{};
-  }
-
-  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
-    row_ += rows;
     return Done{};
   }
 
@@ -209,7 +204,6 @@ class TileRows : public RowReader {
   std::optional<NumberInfo> numbers_;
   std::string where_;
   PictureInfo info_;
-  std::int64_t row_ = 0;
   std::int64_t held_tile_y_ = -1;
   std::vector<std::uint8_t> held_;
 };

@@ -58,7 +58,7 @@ class MirroredRows : public RowReader {
   PictureInfo info_;
 };
 
-class TurnedRows : public RowReader {
+class TurnedRows : public SeekingRows {
  public:
   TurnedRows(std::unique_ptr<RowReader> reader, const PictureInfo& info, const Turn& turn)
       : reader_(std::move(reader)),
@@ -79,11 +79,6 @@ class TurnedRows : public RowReader {
       std::memcpy(to, stored_pixel(turn_.transpose ? row_ : x, turn_.transpose ? x : row_), pixel_bytes_);
     }
     ++row_;
-    return Done{};
-  }
-
-  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
-    row_ += rows;
     return Done{};
   }
 
@@ -113,7 +108,6 @@ class TurnedRows : public RowReader {
   Turn turn_;
   std::size_t pixel_bytes_;
   std::vector<std::uint8_t> held_;
-  std::int64_t row_ = 0;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxWebpFileBytes = 512UL << 20;
 
 /// libwebp decodes whole pictures: this reader holds all pixels, at most 1 GiB for the largest picture of the format.
-class WebpRows : public RowReader {
+class WebpRows : public SeekingRows {
  public:
   WebpRows(std::string name, std::vector<std::byte> bytes, const WebpHeader& header)
       : name_(std::move(name)),
@@ -29,10 +29,6 @@ class WebpRows : public RowReader {
     }
     const std::size_t row_bytes = static_cast<std::size_t>(info_.width_px) * 4;
     std::memcpy(rgba.data(), &image_.rgba[static_cast<std::size_t>(row_++) * row_bytes], row_bytes);
-    return Done{};
-  }
-  [[nodiscard]] Status skip_rows(std::int64_t rows) override {
-    row_ += rows;
     return Done{};
   }
 
@@ -49,7 +45,6 @@ class WebpRows : public RowReader {
   std::vector<std::byte> bytes_;  ///< empty once the picture is decoded
   Image image_;
   PictureInfo info_;
-  std::int64_t row_ = 0;
 };
 
 }  // namespace

@@ -9,15 +9,12 @@
 #include <span>
 
 #include "base/number.h"
-#include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wms/wms_grid.h"
 #include "streaming/remote/wms/wms_layer.h"
 #include "streaming/remote/wmts/ogc_choices.h"
-#include "streaming/remote/wmts/wmts.h"
 #include "streaming/remote/wmts/xml_names.h"
 #include "streaming/sets/tile_check.h"
-#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {
@@ -234,24 +231,11 @@ std::string fault_of_wms_root(const pugi::xml_node& root) {
 
 Result<RemoteTileSet> parse_wms_capabilities(std::string_view xml, const WmsAddress& said, const RemoteOptions& options,
                                              const std::string& where) {
-  if (xml.size() > kMaxCapabilitiesBytes) {
-    return Error{fmt::format("{}: longer than {} bytes", where, kMaxCapabilitiesBytes)};
-  }
-  if (Status checked = check_options(options, where); !checked) return checked.error();
-  if (const std::string told = server_exception(xml); !told.empty()) {
+  if (const std::string told = server_exception(xml.substr(0, kMaxCapabilitiesBytes)); !told.empty()) {
     return Error{fmt::format("{}: the server answers with an exception: {}", where, told)};
   }
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
-  if (!parsed) return Error{fmt::format("{}: not XML at byte {}: {}", where, parsed.offset, parsed.description())};
-  const pugi::xml_node root = document.document_element();
-  if (const std::string fault = fault_of_wms_root(root); !fault.empty()) return Error{where + ": " + fault};
-  Result<RemoteTileSet> set = describe(root, said, options);
-  if (!set) return Error{where + ": " + set.error().message};
-  if (Status checked = check_url_template(*set, true, where); !checked) return checked.error();
-  apply_options(*set, options);
-  if (Status checked = check_grid(set->info.grid, where); !checked) return checked.error();
-  return set;
+  return read_capabilities(xml, options, where, fault_of_wms_root,
+                           [&](const pugi::xml_node& root) { return describe(root, said, options); });
 }
 
 }  // namespace terrella

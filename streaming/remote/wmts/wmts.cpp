@@ -7,14 +7,12 @@
 #include <cmath>
 #include <span>
 
-#include "streaming/remote/url_template.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts_grid.h"
 #include "streaming/remote/wmts/wmts_layer.h"
 #include "streaming/remote/wmts/wmts_url.h"
 #include "streaming/remote/wmts/xml_names.h"
-#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {
@@ -215,21 +213,8 @@ std::string fault_of_root(const pugi::xml_node& root) {
 
 Result<RemoteTileSet> parse_wmts_capabilities(std::string_view xml, const RemoteOptions& options,
                                               const std::string& where) {
-  if (xml.size() > kMaxCapabilitiesBytes) {
-    return Error{fmt::format("{}: longer than {} bytes", where, kMaxCapabilitiesBytes)};
-  }
-  if (Status checked = check_options(options, where); !checked) return checked.error();
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(xml.data(), xml.size());
-  if (!parsed) return Error{fmt::format("{}: not XML at byte {}: {}", where, parsed.offset, parsed.description())};
-  const pugi::xml_node root = document.document_element();
-  if (const std::string fault = fault_of_root(root); !fault.empty()) return Error{where + ": " + fault};
-  Result<RemoteTileSet> set = describe_layer(root, options);
-  if (!set) return Error{where + ": " + set.error().message};
-  if (Status checked = check_url_template(*set, true, where); !checked) return checked.error();
-  apply_options(*set, options);
-  if (Status checked = check_grid(set->info.grid, where); !checked) return checked.error();
-  return set;
+  return read_capabilities(xml, options, where, fault_of_root,
+                           [&](const pugi::xml_node& root) { return describe_layer(root, options); });
 }
 
 }  // namespace terrella

@@ -9,9 +9,6 @@
 
 namespace terrella {
 
-/// Limit on a document. NASA GIBS' document of all layers has about 5 MB.
-inline constexpr std::size_t kMaxCapabilitiesBytes = 32UL << 20;
-
 /// Finds a layer's tiles in a WMTS capabilities document (OGC 07-057r7, version 1.0.0). Uses the layer's URL template,
 /// else GetTile with key-value pairs. Takes the requested matrix set, or the first linked one that a TileGrid can
 /// describe; prefers JPEG to PNG. Does not expand entities of the document, and fetches nothing. The error begins with
