@@ -7,6 +7,7 @@ import unittest
 
 import placement
 from georeferenced import gdal
+from pictures import PDS3_LABEL
 from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, ProgramTest
 
 # Resampled pixels lie within this, in pixels of the tiles (test_placement.py).
@@ -28,31 +29,6 @@ FORMATS = {
     "PDS4": ("xml", (), MARS_EQC, MARS),
     "HDF4Image": ("hdf", (), UTM, "EPSG:4326"),
 }
-
-PDS3_LABEL = """PDS_VERSION_ID = PDS3
-RECORD_TYPE = FIXED_LENGTH
-RECORD_BYTES = {width}
-FILE_RECORDS = {height}
-^IMAGE = "SPOTS.IMG"
-OBJECT = IMAGE
-  LINES = {height}
-  LINE_SAMPLES = {width}
-  SAMPLE_TYPE = UNSIGNED_INTEGER
-  SAMPLE_BITS = 8
-END_OBJECT = IMAGE
-OBJECT = IMAGE_MAP_PROJECTION
-  MAP_PROJECTION_TYPE = "EQUIRECTANGULAR"
-  A_AXIS_RADIUS = 3396.19 <KM>
-  B_AXIS_RADIUS = 3396.19 <KM>
-  C_AXIS_RADIUS = 3396.19 <KM>
-  CENTER_LATITUDE = 0.0 <DEG>
-  CENTER_LONGITUDE = 0.0 <DEG>
-  MAP_SCALE = 10.0 <KM/PIXEL>
-  LINE_PROJECTION_OFFSET = {line}
-  SAMPLE_PROJECTION_OFFSET = {sample}
-END_OBJECT = IMAGE_MAP_PROJECTION
-END
-"""
 
 
 class FormatsTest(ProgramTest):

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 import pmtiles  # noqa: E402
-from pictures import png, png_of  # noqa: E402
+from pictures import PDS3_LABEL, png, png_of  # noqa: E402
 
 ADDRESS = "ADDRESS"  # stands in documents for the address of the server of a mutant's folder
 SIDE = 64
@@ -176,6 +176,46 @@ class Maker:
             self.translate(folder / "a.tif", *options)
             yield Seed(folder, "a.tif", ("a.tif",), heights=name in ("float", "short"))
 
+    def raster(self, driver, name, *mutable, heights=False):
+        """A raster that GDAL writes in a format of its own."""
+        folder = self.new(f"raster-{driver}")
+        self.translate(folder / name, "-of", driver, "-b", 1)
+        (folder / f"{name}.aux.xml").unlink(missing_ok=True)
+        yield Seed(folder, name, mutable or (name,), heights=heights)
+
+    def jpeg2000(self):
+        return self.raster("JP2OpenJPEG", "a.jp2")
+
+    def netcdf(self):
+        return self.raster("netCDF", "a.nc", heights=True)
+
+    def fits(self):
+        return self.raster("FITS", "a.fits", heights=True)
+
+    def envi(self):
+        return self.raster("ENVI", "a.dat", "a.hdr", "a.hdr", "a.dat")
+
+    def isis(self):
+        return self.raster("ISIS3", "a.cub")
+
+    def pds4(self):
+        return self.raster("PDS4", "a.xml", "a.xml", "a.xml", "a.img")
+
+    def pds3(self):
+        folder = self.new("raster-PDS3")
+        label = PDS3_LABEL.format(width=4 * SIDE, height=2 * SIDE, line=63.5, sample=127.5)
+        label = label.replace("C_AXIS_RADIUS = 3396.19", "C_AXIS_RADIUS = 6356.7523142").replace("3396.19", "6378.137")
+        pixels = bytes(range(256)) * (2 * SIDE * 4 * SIDE // 256)
+        (folder / "a.lbl").write_text(label)
+        (folder / "SPOTS.IMG").write_bytes(pixels)
+        yield Seed(folder, "a.lbl", ("a.lbl",))
+
+    def vrt(self):
+        folder = self.new("raster-VRT")
+        self.translate(folder / "a.tif")
+        run("gdal_translate", "-q", "-of", "VRT", folder / "a.tif", folder / "a.vrt")
+        yield Seed(folder, "a.vrt", ("a.vrt", "a.vrt", "a.tif"))
+
     def picture_file(self):
         for ending, options in {"jpg": ("-of", "JPEG"), "png": ("-of", "PNG"), "webp": ("-of", "WEBP")}.items():
             folder = self.new(f"picture-{ending}")
@@ -215,7 +255,8 @@ class Maker:
 
     KINDS = {"geopackage": geopackage, "mbtiles": mbtiles, "pmtiles": pmtiles, "folder": folder, "gdal_wms": gdal_wms, "wmts": wmts,
              "geojson": geojson, "gltf": gltf, "tiff": tiff, "picture": picture_file, "beside": beside, "mosaic": mosaic,
-             "description": description}
+             "description": description, "raster-jpeg2000": jpeg2000, "raster-vrt": vrt, "raster-netcdf": netcdf, "raster-fits": fits,
+             "raster-envi": envi, "raster-isis": isis, "raster-pds3": pds3, "raster-pds4": pds4}
 
     def seeds(self, kind):
         return list(self.KINDS[kind](self))

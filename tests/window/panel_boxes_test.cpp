@@ -16,39 +16,23 @@
 #include "apps/viewer/panels/view_settings.h"
 #include "apps/viewer/parts/graticule_lines.h"
 #include "apps/viewer/viewer.h"
+#include "panel_screen.h"
 
 namespace terrella {
 namespace {
 
-struct Screen {
-  float width, height;
-  float scale;
-};
+using test::Screen;
 
-void PrintTo(const Screen& screen, std::ostream* out) {
-  *out << screen.width << " x " << screen.height << " at " << screen.scale;
-}
-
-// Panels without a window and without OpenGL.
-class PanelBoxes : public testing::TestWithParam<Screen> {
+/// A frame that is begun.
+class PanelBoxes : public test::PanelScreen {
  protected:
   void SetUp() override {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = {GetParam().width, GetParam().height};
-    ImFontConfig config;
-    config.SizePixels = 15.0F * GetParam().scale;
-    io.Fonts->AddFontDefault(&config);
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
-    ImGui::GetStyle().ScaleAllSizes(GetParam().scale);
+    PanelScreen::SetUp();
     ImGui::NewFrame();
   }
   void TearDown() override {
     ImGui::EndFrame();
-    ImGui::DestroyContext();
+    PanelScreen::TearDown();
   }
 };
 

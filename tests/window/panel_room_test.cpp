@@ -13,37 +13,15 @@
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/panels/view_settings.h"
+#include "panel_screen.h"
 
 namespace terrella {
 namespace {
 
-struct Size {
-  float width, height;
-  float scale;
-};
+using test::Screen;
 
-void PrintTo(const Size& size, std::ostream* out) {
-  *out << size.width << " x " << size.height << " at " << size.scale;
-}
-
-// Panels without a window and without OpenGL.
-class PanelRoom : public testing::TestWithParam<Size> {
+class PanelRoom : public test::PanelScreen {
  protected:
-  void SetUp() override {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = {GetParam().width, GetParam().height};
-    ImFontConfig config;
-    config.SizePixels = 15.0F * GetParam().scale;
-    io.Fonts->AddFontDefault(&config);
-    unsigned char* pixels = nullptr;
-    int width = 0, height = 0;
-    io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
-    ImGui::GetStyle().ScaleAllSizes(GetParam().scale);
-  }
-  void TearDown() override { ImGui::DestroyContext(); }
-
   /// The rectangles of the last of some frames; a panel fits its contents one frame late.
   static std::vector<UiBox> boxes_of(const std::function<void()>& draw) {
     std::vector<UiBox> boxes;
@@ -135,8 +113,8 @@ TEST_P(PanelRoom, PanelsLeaveTheTextsTheirRoom) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PanelRoom,
-                         testing::Values(Size{200, 150, 1}, Size{400, 300, 1}, Size{640, 480, 1}, Size{640, 480, 2},
-                                         Size{1280, 960, 2}, Size{1280, 800, 1}));
+                         testing::Values(Screen{200, 150, 1}, Screen{400, 300, 1}, Screen{640, 480, 1},
+                                         Screen{640, 480, 2}, Screen{1280, 960, 2}, Screen{1280, 800, 1}));
 
 }  // namespace
 }  // namespace terrella
