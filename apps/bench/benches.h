@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 #include "base/result.h"
 #include "render/gl/shader_functions.h"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "apps/bench/benches.h"
-#include "apps/bench/report_files.h"
-#include "apps/bench/report_page.h"
+#include "apps/bench/report/report_files.h"
+#include "apps/bench/report/report_page.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/process/console.h"

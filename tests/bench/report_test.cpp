@@ -1,12 +1,12 @@
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/bench/gnuplot.h"
-#include "apps/bench/report_page.h"
+#include "apps/bench/report/gnuplot.h"
+#include "apps/bench/report/report_page.h"
 
 namespace terrella::bench {
 namespace {

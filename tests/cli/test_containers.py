@@ -5,15 +5,11 @@ import re
 import shlex
 import struct
 import subprocess
-import sys
 import unittest
 
-from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import png  # noqa: E402
-import servers  # noqa: E402
+import png
+import servers
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, ProgramTest
 
 VIEW = ("--unlit", "--sky", "off", "--camera", "20,10,9000000", "--size", "128x128")
 # Mean difference of a channel, levels: lossy tiles of the same picture differ by less, turned pictures by far more.

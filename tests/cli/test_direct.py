@@ -2,14 +2,11 @@
 
 import math
 import pathlib
-import sys
 import unittest
 
+import png
 from georeferenced import gdal
 from program import BLUE_MARBLE, ProgramTest
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
-import png  # noqa: E402
 
 # The finest pixels are the same. Overviews are rounded to 8 bits once more, which moves some pixels by one.
 SAME_RMS = 0.3

@@ -5,16 +5,13 @@ import resource
 import sqlite3
 import struct
 import subprocess
-import sys
 import time
 import unittest
 import zlib
 
+import servers
 from pictures import heights_png, png, png_of
-from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, ProgramTest
 
 RENDER = ("-o", "out.png", "--size", "64x64", "--camera", "10,20,2000000,0,-50", "--unlit", "--cache", "off")
 ROUGH = "--exaggeration", "20"

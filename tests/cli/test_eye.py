@@ -1,13 +1,10 @@
 """Allowed places of the eye: in and under the ground, with mountains, and out to where the planet is a pixel wide."""
 
-import sys
 import unittest
 
+import png as pngs
 from pictures import heights_png, png
-from program import DONE, SOURCE, WRONG_USAGE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import png as pngs  # noqa: E402
+from program import DONE, WRONG_USAGE, ProgramTest
 
 SIZE = 128
 MOVED = "under the ground, which is opaque"

@@ -2,14 +2,11 @@
 
 import json
 import sqlite3
-import sys
 import unittest
 
+import png as pngs
 from pictures import png
-from program import DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import png as pngs  # noqa: E402
+from program import DONE, DONE_IN_PART, FAILED, ProgramTest
 
 SMALL = ("--size", "96x96", "--unlit")
 COLOUR = (40, 90, 160)

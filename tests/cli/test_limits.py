@@ -5,15 +5,12 @@ import os
 import resource
 import signal
 import subprocess
-import sys
 import unittest
 import zlib
 
+import servers
 from pictures import png, png_of
-from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, PROGRAM, SOURCE, TIME_LIMIT_S, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, PROGRAM, TIME_LIMIT_S, ProgramTest
 
 SMALL_FILES_BYTES = 64 * 1024
 NO_MESA_CACHE = {"MESA_SHADER_CACHE_DISABLE": "true"}

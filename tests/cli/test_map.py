@@ -1,15 +1,11 @@
 """--map: coastlines and borders are where the data say, and a picture without them is the picture as it was."""
 
 import json
-import pathlib
-import sys
 import unittest
 
+import png
 from pictures import png as png_bytes
 from program import FAILED, SOURCE, WRONG_USAGE, ProgramTest
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "window"))
-import png  # noqa: E402
 
 MAP = json.loads((SOURCE / "data/vector/map.json").read_text(encoding="utf-8"))
 SIDE = 64  # pixels

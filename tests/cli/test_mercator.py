@@ -4,17 +4,13 @@ import json
 import math
 import shutil
 import subprocess
-import sys
 import unittest
 import zlib
 
+import png
+import servers
 from pictures import png_of
-from program import SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import png  # noqa: E402
-import servers  # noqa: E402
+from program import ProgramTest
 
 TILE_PX, LEVELS = 64, 3
 SIDE = 256

@@ -5,14 +5,11 @@ import json
 import math
 import random
 import struct
-import sys
 import unittest
 
+import png as pngs
 from pictures import png
-from program import DONE_IN_PART, FAILED, SOURCE, WRONG_USAGE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import png as pngs  # noqa: E402
+from program import DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
 
 SMALL = ["--size", "64x64", "--unlit", "--sky", "off"]
 

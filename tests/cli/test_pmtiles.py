@@ -5,18 +5,15 @@ import functools
 import gzip
 import json
 import sqlite3
-import sys
 import unittest
 
 import pmtiles
+import servers
 from pictures import png
 from pmtiles import archive, directory
-from program import DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
+from program import DONE, DONE_IN_PART, FAILED, ProgramTest
 from range_server import range_server
 from test_mercator import LEVELS, square_tile
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
 
 VIEW = ("--unlit", "--sky", "off", "--camera", "20,10,9000000", "--size", "128x128")
 

@@ -2,13 +2,9 @@
 
 import json
 import subprocess
-import sys
 
-from program import BLUE_MARBLE, DONE, DONE_IN_PART, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import servers  # noqa: E402
+import servers
+from program import BLUE_MARBLE, DONE, DONE_IN_PART, ProgramTest
 
 LEVELS = 3
 VIEW = ("--unlit", "--camera", "30,20,6000000", "--size", "512x512")
@@ -218,7 +214,6 @@ class NoServerTest(ProgramTest):
 
     def test_a_template_without_a_place_for_the_level_is_wrong(self):
         self.assert_fails(1, "render", "http://127.0.0.1:9/{x}/{y}.jpg", "-o", "x.png", says=["{z}"])
-
 
 
 class NoPlaceForTheCacheTest(PyramidTest):

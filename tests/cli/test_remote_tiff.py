@@ -3,15 +3,12 @@
 import json
 import struct
 import subprocess
-import sys
 import unittest
 
+import servers
 from georeferenced import gdal, make
-from program import DONE, DONE_IN_PART, FAILED, SOURCE, ProgramTest
+from program import DONE, DONE_IN_PART, FAILED, ProgramTest
 from range_server import range_server
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
 
 VIEW = ("--unlit", "--sky", "off", "--size", "256x256")
 WHOLE = "20,10,9000000"

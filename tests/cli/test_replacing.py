@@ -5,15 +5,12 @@ import os
 import shutil
 import sqlite3
 import subprocess
-import sys
 import time
 import unittest
 
+import servers
 from pictures import png
-from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, PROGRAM, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
+from program import BLUE_MARBLE, FAILED, NATURAL_EARTH, PROGRAM, ProgramTest
 
 ROADS = {"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"name": "A1"}, "geometry": {"type": "LineString", "coordinates": [[8, 47], [9, 46]]}}]}

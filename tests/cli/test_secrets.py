@@ -6,14 +6,10 @@ import contextlib
 import json
 import os
 import socketserver
-import sys
 import threading
 
-from program import DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, SOURCE, WRONG_USAGE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/window"))
-import servers  # noqa: E402
+import servers
+from program import DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, WRONG_USAGE, ProgramTest
 
 LEVELS = 3
 VIEW = ("--unlit", "--camera", "30,20,6000000", "--size", "256x256")

@@ -6,14 +6,11 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 import unittest
 
-from program import BLUE_MARBLE, DONE_IN_PART, FAILED, NATURAL_EARTH, PROGRAM, SOURCE, TIME_LIMIT_S, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
+import servers
+from program import BLUE_MARBLE, DONE_IN_PART, FAILED, NATURAL_EARTH, PROGRAM, TIME_LIMIT_S, ProgramTest
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 

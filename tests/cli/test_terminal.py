@@ -6,14 +6,11 @@ import os
 import re
 import sqlite3
 import subprocess
-import sys
 import threading
 
+import servers
 from program import DONE, PROGRAM, SOURCE, TIME_LIMIT_S, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-import servers  # noqa: E402
-from test_remote import CAPABILITIES, MATRIX  # noqa: E402
+from test_remote import CAPABILITIES, MATRIX
 
 VIEW = ("--unlit", "--camera", "30,20,6000000", "--size", "64x64")
 # Clear the screen, set the title, C1's way to do so, back to the line's start, ring, right to left, a line of its own.

@@ -3,16 +3,11 @@
 import json
 import os
 import subprocess
-import sys
 
-from program import DONE, SOURCE, ProgramTest
-
-sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/window"))
-sys.path.insert(0, str(SOURCE / "tests/http"))
-import png  # noqa: E402
-import servers  # noqa: E402
-import wms_server  # noqa: E402
+import png
+import servers
+import wms_server
+from program import DONE, ProgramTest
 
 TILE_PX = 64
 # Places in each system, away from the pole, where its longitudes turn within a pixel.

@@ -19,7 +19,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "cli"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 PROGRAM = os.environ["TERRELLA"]
 SPOTS = 1500
 SHIFTS_PX = [(0, 0), (2, 0), (-2, 0), (0, 2), (0, -2)]

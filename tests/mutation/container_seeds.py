@@ -12,7 +12,7 @@ import typing
 import zlib
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import pmtiles  # noqa: E402
 from pictures import PDS3_LABEL, png, png_of  # noqa: E402
 

@@ -14,7 +14,7 @@ BUILD = pathlib.Path(os.environ["TERRELLA_BUILD"])
 CMAKE = os.environ["CMAKE_COMMAND"]
 COMPILER = os.environ["CXX"]
 
-sys.path[:0] = [str(HERE.parent / "window"), str(HERE.parent / "cli")]
+sys.path[:0] = [str(HERE.parent / "window"), str(HERE.parent / "support")]
 import pictures  # noqa: E402
 import png  # noqa: E402
 

@@ -1,16 +1,10 @@
 """Shared parts of the tests of `terrella preload`."""
 
 import json
-import os
-import pathlib
 import sqlite3
-import sys
 
-sys.path.insert(0, str(pathlib.Path(os.environ["TERRELLA_SOURCE"]) / "tests/cli"))
-
-from program import ProgramTest  # noqa: E402
-
-import servers  # noqa: E402
+import servers
+from program import ProgramTest
 
 
 class PreloadTest(ProgramTest):

@@ -12,7 +12,7 @@ from real_window import PROGRAM, WindowTest, wait_until
 
 SOURCE = Path(os.environ["TERRELLA_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/preload"))
-sys.path.insert(0, str(SOURCE / "tests/cli"))
+sys.path.insert(0, str(SOURCE / "tests/support"))
 import servers  # noqa: E402
 from pictures import heights_png, png  # noqa: E402
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 #include "base/result.h"
 
 namespace terrella::bench {

@@ -1,4 +1,4 @@
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 
 #include <fmt/format.h>
 

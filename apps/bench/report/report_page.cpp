@@ -1,4 +1,4 @@
-#include "apps/bench/report_page.h"
+#include "apps/bench/report/report_page.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
-#include "apps/bench/report_files.h"
+#include "apps/bench/report/report_files.h"
 
 #include <fmt/format.h>
 
 #include <span>
 #include <system_error>
 
-#include "apps/bench/gnuplot.h"
+#include "apps/bench/report/gnuplot.h"
 #include "apps/process/write_file.h"
 #include "streaming/file_bytes.h"
 

@@ -1,4 +1,4 @@
-#include "apps/bench/gnuplot.h"
+#include "apps/bench/report/gnuplot.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

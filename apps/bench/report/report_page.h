@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 #include "base/result.h"
 
 namespace terrella::bench {

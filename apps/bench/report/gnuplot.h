@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/bench/report.h"
+#include "apps/bench/report/report.h"
 
 namespace terrella::bench {
 
