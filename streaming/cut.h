@@ -12,7 +12,6 @@
 
 #include "base/result.h"
 #include "streaming/georeference/georeference.h"
-#include "streaming/georeference/place_words.h"
 #include "streaming/numbers/stretch_rule.h"
 #include "streaming/raster/open_raster.h"
 #include "tiles/tile_source.h"

@@ -98,4 +98,14 @@ std::string why_not_written(int error_number) {
   return write_failure(error_number) + advice;
 }
 
+Status check_regular(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) {
+    return Error{fmt::format("{}: is a folder, not a picture", path.string())};
+  }
+  if (!std::filesystem::is_other(status)) return Done{};
+  return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
+}
+
 }  // namespace terrella

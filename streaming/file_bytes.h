@@ -25,6 +25,10 @@ struct FileError {
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
 
+/// Refuses folders, and also pipes, devices and sockets, because reading those may block. Accepts a missing file; the
+/// reader then reports it.
+[[nodiscard]] Status check_regular(const std::filesystem::path& path);
+
 /// Bytes as text. thread: any
 [[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -8,7 +8,7 @@
 #include "apps/open_scene/open_remote_tiff.h"
 #include "base/result.h"
 #include "streaming/cut/input/picture_place.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/raster/open_raster.h"
 
 namespace terrella {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/open_scene/opened_rasters.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/raster/open_raster.h"
 
 namespace terrella {

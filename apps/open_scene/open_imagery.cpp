@@ -14,7 +14,6 @@
 #include "apps/process/data_dir.h"
 #include "apps/process/user_folder.h"
 #include "codecs/image.h"
-#include "streaming/cut/input/row_reader.h"
 #include "streaming/file_bytes.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/georeference/length_unit.h"

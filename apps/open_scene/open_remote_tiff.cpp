@@ -16,7 +16,7 @@
 #include "streaming/remote/describe_remote.h"
 #include "streaming/remote/remote_pmtiles.h"
 #include "streaming/remote/web_address.h"
-#include "streaming/remote_tiff/remote_raster.h"
+#include "streaming/remote_tiff/remote_tiff.h"
 #include "streaming/remote_tiff/waiting_raster.h"
 
 namespace terrella {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/georeference/affine.h"
+#include "streaming/georeference/georeference.h"
 
 struct pj_ctx;
 struct PJconsts;

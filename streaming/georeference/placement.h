@@ -7,7 +7,6 @@
 #include "base/result.h"
 #include "streaming/georeference/crs.h"
 #include "streaming/georeference/georeference.h"
-#include "streaming/georeference/place_words.h"
 
 namespace terrella {
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/georeference/affine.h"
 #include "streaming/georeference/georeference.h"
 #include "streaming/raster/open_raster.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/hash_mix.h"
 #include "streaming/georeference/length_unit.h"
-#include "streaming/mosaic/header_text.h"
+#include "streaming/mosaic/mosaic_store.h"
 #include "streaming/raster/in_parallel.h"
 
 namespace terrella {

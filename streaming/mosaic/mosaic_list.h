@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 
 namespace terrella {
 

@@ -12,9 +12,15 @@
 #include <vector>
 
 #include "streaming/cache/sqlite_writer.h"
+#include "streaming/mosaic/mosaic_sheet.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
+
+/// A file's facts as text for the store, and back; nothing for a text of another version or a damaged one. The path
+/// and the mark are not among them. thread: any
+[[nodiscard]] std::string header_text(const PlacedFile& file);
+[[nodiscard]] std::optional<PlacedFile> parse_header_text(const std::string& text);
 
 /// The part of a mosaic that the cache folder keeps: facts from the headers of its files, and the overview of the
 /// whole. Several processes may use one file. Entries that cannot be read or written count as missing, because all of

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "streaming/mosaic/mosaic_sheet.h"
-#include "streaming/warp/decoded_blocks.h"
+#include "streaming/warp/stored_blocks.h"
 
 namespace terrella {
 

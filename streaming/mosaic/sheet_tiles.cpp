@@ -6,7 +6,7 @@
 
 #include "streaming/mosaic/area_mean.h"
 #include "streaming/mosaic/sheet_raster.h"
-#include "streaming/warp/make_warp_source.h"
+#include "streaming/warp/warp_source.h"
 
 namespace terrella {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "streaming/mosaic/mosaic_index.h"
 #include "streaming/mosaic/open_rasters.h"
-#include "streaming/warp/make_warp_source.h"
+#include "streaming/warp/warp_source.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

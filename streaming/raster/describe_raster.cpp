@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "streaming/raster/open_raster.h"
-#include "streaming/raster/picture_kind.h"
 #include "streaming/raster/raster_pixels.h"
 
 namespace terrella {
@@ -47,18 +46,6 @@ std::string samples_title(const RasterBand& band) {
 }
 
 }  // namespace
-
-bool holds_numbers(const RasterFile& file) {
-  const ColourBands colours = colour_bands(file.header());
-  return !colours.in_colours() && file.header().bands.front().type != SampleType::uint8 &&
-         file.header().bands.front().colour != BandColour::other;
-}
-
-bool holds_numbers(const std::filesystem::path& path) {
-  if (picture_kind(path) != PictureKind::raster) return false;
-  const auto file = RasterFile::open(path.string());
-  return file && holds_numbers(**file);
-}
 
 Result<RasterFacts> describe_raster(const RasterFile& file, const DescribedBand& wanted, bool with_values) {
   const RasterHeader& header = file.header();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "streaming/raster/file_source.h"
+#include "streaming/raster/picture_kind.h"
 #include "streaming/raster/rows/raster_rows.h"
 #include "streaming/raster/rows/row_raster.h"
 
@@ -234,6 +235,18 @@ Result<std::unique_ptr<FileSource>> make_file_source(std::shared_ptr<const Raste
     info.by_rows = info.by_rows || parts->stores.back() != nullptr;
   }
   return std::unique_ptr<FileSource>(std::make_unique<FileRaster>(std::move(parts), std::move(info)));
+}
+
+bool holds_numbers(const RasterFile& file) {
+  const ColourBands colours = colour_bands(file.header());
+  return !colours.in_colours() && file.header().bands.front().type != SampleType::uint8 &&
+         file.header().bands.front().colour != BandColour::other;
+}
+
+bool holds_numbers(const std::filesystem::path& path) {
+  if (picture_kind(path) != PictureKind::raster) return false;
+  const auto file = RasterFile::open(path.string());
+  return file && holds_numbers(**file);
 }
 
 }  // namespace terrella

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "streaming/georeference/affine.h"
+#include "streaming/georeference/georeference.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-#include "streaming/warp/make_warp_source.h"
+#include "streaming/warp/warp_source.h"
 
 namespace terrella {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/sqlite_reader.h"
 #include "tiles/tile_grid.h"
 

@@ -7,7 +7,6 @@
 
 #include "geo/body.h"
 #include "streaming/raster/tile_raster.h"
-#include "streaming/warp/make_warp_source.h"
 #include "streaming/warp/warp_source.h"
 #include "tiles/grid_ranges.h"
 

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <memory>
 
-#include "streaming/remote_tiff/remote_raster.h"
 #include "streaming/remote_tiff/remote_tiff.h"
 
 namespace {

@@ -9,7 +9,6 @@
 
 #include "raster_files.h"
 #include "served_folder.h"
-#include "streaming/remote_tiff/remote_raster.h"
 
 namespace terrella::test {
 namespace {

@@ -9,7 +9,6 @@
 #include "raster_files.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/remote/remote_source.h"
-#include "streaming/remote_tiff/remote_raster.h"
 #include "streaming/remote_tiff/remote_tiff.h"
 #include "streaming/warp/warp_source.h"
 #include "streaming/warp/web_mercator.h"

@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 #include "streaming/cut.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 
 namespace terrella {
 

@@ -8,7 +8,7 @@
 
 #include "apps/open_scene/options/number_options.h"
 #include "geo/body.h"
-#include "streaming/georeference/place_words.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/url.h"
 #include "tiles/tile_grid.h"

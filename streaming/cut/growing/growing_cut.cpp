@@ -16,7 +16,7 @@
 #include "streaming/cut/input/picture_place.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/warp/direct_tiles.h"
-#include "streaming/warp/make_warp_source.h"
+#include "streaming/warp/warp_source.h"
 
 namespace terrella {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/file_bytes.h"
 #include "streaming/raster/picture_kind.h"
 #include "streaming/raster/raster_pixels.h"
 

@@ -5,6 +5,7 @@
 
 #include "streaming/cut/input/height_samples.h"
 #include "streaming/cut/input/row_reader.h"
+#include "streaming/file_bytes.h"
 #include "streaming/raster/picture_kind.h"
 #include "streaming/raster/rows/row_raster.h"
 

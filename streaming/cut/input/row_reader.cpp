@@ -7,6 +7,7 @@
 
 #include "codecs/image.h"
 #include "streaming/cut/input/row_formats.h"
+#include "streaming/file_bytes.h"
 #include "streaming/raster/picture_kind.h"
 
 namespace terrella {
@@ -59,16 +60,6 @@ Status RowReader::skip_rows(std::int64_t rows) {
     if (Status read = read_row(row); !read) return read;
   }
   return Done{};
-}
-
-Status check_regular(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_directory(status)) {
-    return Error{fmt::format("{}: is a folder, not a picture", path.string())};
-  }
-  if (!std::filesystem::is_other(status)) return Done{};
-  return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
 }
 
 std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows) {

@@ -52,10 +52,6 @@ class SeekingRows : public RowReader {
 /// Returns the same rows, with the last one repeated until there are `rows` rows.
 [[nodiscard]] std::unique_ptr<RowReader> with_rows(std::unique_ptr<RowReader> reader, std::int64_t rows);
 
-/// Refuses folders, and also pipes, devices and sockets, because reading those may block. Accepts a missing file; the
-/// reader then reports it.
-[[nodiscard]] Status check_regular(const std::filesystem::path& path);
-
 /// Opens a JPEG, PNG, WebP, TIFF or BigTIFF, identified by its first bytes. `choice` says how a TIFF is shown; other
 /// pictures refuse a composite. `jobs` threads decode a row of a TIFF's tiles; 0: one for each core. The error names
 /// the file, the fault and a cure.

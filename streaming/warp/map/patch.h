@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "streaming/georeference/affine.h"
+#include "streaming/georeference/georeference.h"
 
 namespace terrella {
 
