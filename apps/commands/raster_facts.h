@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/open_scene/opened_rasters.h"
+#include "apps/open_scene/open_rasters.h"
 #include "streaming/georeference/georeference.h"
 #include "streaming/raster/open_raster.h"
 

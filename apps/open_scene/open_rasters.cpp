@@ -13,7 +13,6 @@
 
 #include "apps/open_scene/open_cache.h"
 #include "apps/open_scene/open_imagery.h"
-#include "apps/open_scene/opened_rasters.h"
 #include "apps/process/console.h"
 #include "apps/process/open_files.h"
 #include "base/hash_mix.h"

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 
+#include "apps/open_scene/open_remote_tiff.h"
 #include "apps/open_scene/options/source_options.h"
 #include "base/result.h"
+#include "streaming/mosaic/mosaic_index.h"
 #include "streaming/mosaic/mosaic_tiles.h"
 #include "tiles/tile_source.h"
 
@@ -27,5 +31,11 @@ namespace terrella {
 /// Number of rasters that were left out by the functions above, so far: a result without them is done in part. thread:
 /// any
 [[nodiscard]] int rasters_left_out();
+
+/// Rasters that were opened in place, by the name that opened them (which may be secret), for facts about them.
+struct OpenedRasters {
+  std::map<std::string, RemotePicture> remote{};  ///< keeps the connection and the cache of each open
+  std::map<std::string, MosaicFacts> many{};
+};
 
 }  // namespace terrella

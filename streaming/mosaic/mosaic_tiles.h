@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/mosaic/mosaic_facts.h"
 #include "streaming/mosaic/mosaic_index.h"
 #include "tiles/tile_source.h"
 
