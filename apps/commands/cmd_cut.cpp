@@ -16,6 +16,7 @@
 #include "base/number.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
+#include "streaming/raster/picture_kind.h"
 #include "streaming/remote/web_address.h"
 
 namespace terrella {
@@ -99,6 +100,14 @@ Status open_address(CutCommand& command) {
   return Done{};
 }
 
+/// Opens the picture, if it is one raster. A fault is left to the cut, which names it.
+void open_raster_of(CutCommand& command) {
+  if (command.cut.picture || command.images.size() > 1) return;
+  const std::filesystem::path image = command.images.front();
+  if (picture_kind(image) != PictureKind::raster) return;
+  if (const auto opened = measure_raster(image)) command.cut.picture = *opened;
+}
+
 /// Chooses the content to read from the pictures: heights, numbers or colours.
 void set_reading(CutCommand& command) {
   if (command.elevation) {
@@ -118,6 +127,7 @@ int run(CutCommand& command) {
   command.cut.remark = [](const std::string& remark) { print_message("terrella cut: {}\n", remark); };
   const StopSignals signals;
   if (Status opened = open_address(command); !opened) return fail("cut", opened.error().message);
+  open_raster_of(command);
   set_reading(command);
   Result<CutSummary> summary = Error{};
   {

@@ -196,7 +196,13 @@ CodingOptions choice_of(const CutOptions& options) {
   return choice;
 }
 
-Result<CutInput> open_input(const CutOptions& options) {
+Result<CutInput> open_input(const CutOptions& said) {
+  CutOptions options = said;
+  if (options.images.size() == 1 && !is_mosaic(options.images.front())) {
+    auto picture = picture_of(said);
+    if (!picture) return picture.error();
+    options.picture = *std::move(picture);
+  }
   const auto planned = plan_of(options);
   if (!planned) return planned.error();
   const std::optional<HeightPlan>& heights = *planned;
