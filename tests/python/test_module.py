@@ -232,6 +232,16 @@ class Globes(ModuleTest):
         with self.assertRaisesRegex(terrella.Error, "nowhere.gpkg"):
             globe.add_imagery("nowhere.gpkg")
 
+    def test_layers_added_later_are_those_of_the_scene(self):
+        plain, explained = (terrella.Globe(NATURAL_EARTH, camera=(0, -140, 8e6), size=(320, 240), legend=legend) for legend in (False, True))
+        self.assertTrue((plain.render() == explained.render()).all())
+        for globe in plain, explained:
+            globe.add_imagery(SOURCE / "data/ocean/sea_surface_temperature.tif")
+        self.assertFalse((plain.render() == explained.render()).all(), "no legend")
+        terrella.cut(PICTURE, output=self.folder / "mars.gpkg", body="mars")
+        with self.assertRaisesRegex(terrella.Error, "mars"):
+            plain.add_imagery(self.folder / "mars.gpkg")
+
     def test_threads_and_two_globes(self):
         globes = [terrella.Globe(NATURAL_EARTH, camera=(0, lon, 8e6), size=SIZE) for lon in (0, 90)]
         pictures = [None, None]
