@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/open_scene/open_picture.h"
 #include "apps/open_scene/open_remote_tiff.h"
 #include "apps/open_scene/options/number_options.h"
 #include "apps/open_scene/options/option_checks.h"
@@ -16,6 +17,7 @@
 #include "base/number.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
+#include "streaming/mosaic/mosaic_list.h"
 #include "streaming/raster/picture_kind.h"
 #include "streaming/remote/web_address.h"
 
@@ -106,6 +108,13 @@ void open_raster_of(CutCommand& command) {
   const std::filesystem::path image = command.images.front();
   if (picture_kind(image) != PictureKind::raster) return;
   if (const auto opened = measure_raster(image)) command.cut.picture = *opened;
+}
+
+/// True if a raster holds numbers, or one of a folder's or a list's; false if it cannot be read.
+bool any_holds_numbers(const std::filesystem::path& input) {
+  if (!is_mosaic(input)) return holds_numbers(input);
+  const auto list = read_mosaic_list(input);
+  return list && std::ranges::any_of(list->entries, [](const MosaicEntry& file) { return holds_numbers(file.path); });
 }
 
 /// Chooses the content to read from the pictures: heights, numbers or colours.

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/open_scene/options/place_options.h"
+#include "apps/open_scene/open_picture.h"
 #include "apps/process/option_names.h"
 #include "geo/body.h"
 #include "streaming/cut.h"

@@ -9,12 +9,9 @@
 
 #include "apps/open_scene/open_cache.h"
 #include "apps/open_scene/open_imagery.h"
-#include "apps/open_scene/options/number_options.h"
-#include "apps/open_scene/options/place_options.h"
 #include "apps/process/console.h"
 #include "apps/process/progress.h"
 #include "apps/process/stop_signals.h"
-#include "streaming/cut.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/growing/growing_cut.h"
 #include "streaming/raster/picture_kind.h"
@@ -153,6 +150,36 @@ Result<Tiles> open_picture(const fs::path& picture, const SourceOptions& options
   // The tiles share the life of their folder.
   const auto both = std::make_shared<ScratchTiles>(ScratchTiles{*std::move(scratch), *std::move(tiles)});
   return Tiles(both, both->tiles.get());
+}
+
+void set_place(CutOptions& cut, const PlaceWords& words) {
+  cut.crs = words.crs;
+  cut.west_deg = words.west_deg;
+  cut.crs_bounds = words.bounds;
+}
+
+void set_numbers(CutOptions& cut, const NumberOptions& options, bool holds_numbers) {
+  if (options.bands) {
+    cut.composite = CutBands{.bands = *options.bands, .stretch = {}, .nodata = options.nodata};
+    for (std::size_t c = 0; c < 3 && !options.stretch.empty(); ++c) {
+      cut.composite->stretch[c] = options.stretch[std::min(c, options.stretch.size() - 1)];
+    }
+  } else if (options.ask_for_numbers() || (!cut.format && holds_numbers)) {
+    cut.numbers = CutNumbers{.band = std::max(1, options.band), .nodata = options.nodata};
+  }
+}
+
+void set_numbers(RasterOptions& reading, const CutOptions& cut) {
+  if (cut.numbers) {
+    reading.nodata = cut.numbers->nodata;
+    reading.heights = true;
+    reading.stored = true;
+    // Several bands are gray pictures too, and the first of them is shown.
+    reading.band = cut.numbers->band;
+  }
+  if (!cut.composite) return;
+  reading.nodata = cut.composite->nodata;
+  reading.composite = composite_of(*cut.composite);
 }
 
 }  // namespace terrella

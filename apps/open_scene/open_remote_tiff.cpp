@@ -1,4 +1,5 @@
 #include "apps/open_scene/open_remote_tiff.h"
+#include "apps/open_scene/open_picture.h"
 
 #include <fmt/format.h>
 

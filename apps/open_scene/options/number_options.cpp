@@ -9,7 +9,6 @@
 #include "apps/open_scene/scene_numbers.h"
 #include "apps/process/console.h"
 #include "base/number.h"
-#include "streaming/mosaic/mosaic_list.h"
 
 namespace terrella {
 namespace {
@@ -30,12 +29,6 @@ Result<std::array<int, 3>> parse_bands(const std::string& text) {
 }
 
 }  // namespace
-
-bool any_holds_numbers(const std::filesystem::path& input) {
-  if (!is_mosaic(input)) return holds_numbers(input);
-  const auto list = read_mosaic_list(input);
-  return list && std::ranges::any_of(list->entries, [](const MosaicEntry& file) { return holds_numbers(file.path); });
-}
 
 std::optional<int> band_number(std::string_view text) {
   const auto number = read_number(text);
@@ -100,30 +93,6 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
   command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
       ->check(any_number())
       ->type_name("VALUE");
-}
-
-void set_numbers(CutOptions& cut, const NumberOptions& options, bool holds_numbers) {
-  if (options.bands) {
-    cut.composite = CutBands{.bands = *options.bands, .stretch = {}, .nodata = options.nodata};
-    for (std::size_t c = 0; c < 3 && !options.stretch.empty(); ++c) {
-      cut.composite->stretch[c] = options.stretch[std::min(c, options.stretch.size() - 1)];
-    }
-  } else if (options.ask_for_numbers() || (!cut.format && holds_numbers)) {
-    cut.numbers = CutNumbers{.band = std::max(1, options.band), .nodata = options.nodata};
-  }
-}
-
-void set_numbers(RasterOptions& reading, const CutOptions& cut) {
-  if (cut.numbers) {
-    reading.nodata = cut.numbers->nodata;
-    reading.heights = true;
-    reading.stored = true;
-    // Several bands are gray pictures too, and the first of them is shown.
-    reading.band = cut.numbers->band;
-  }
-  if (!cut.composite) return;
-  reading.nodata = cut.composite->nodata;
-  reading.composite = composite_of(*cut.composite);
 }
 
 }  // namespace terrella

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "streaming/cut.h"
 #include "streaming/numbers/stretch_rule.h"
-#include "streaming/raster/open_raster.h"
 
 namespace terrella {
 
@@ -42,14 +40,5 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
 
 /// A band's number, a whole number from 1 on. thread: any
 [[nodiscard]] std::optional<int> band_number(std::string_view text);
-
-/// True if a raster holds numbers, or one of a folder's or a list's; false if it cannot be read. Blocks. thread: any
-[[nodiscard]] bool any_holds_numbers(const std::filesystem::path& input);
-
-/// Gives the choices to a cut, which with a `format` makes a picture of numbers unless they are asked for.
-/// `holds_numbers`: the raster is shown as numbers unless the user says otherwise. thread: any
-void set_numbers(CutOptions& cut, const NumberOptions& options, bool holds_numbers);
-/// Makes the reader of a raster that is shown directly read what a cut would. thread: any
-void set_numbers(RasterOptions& reading, const CutOptions& cut);
 
 }  // namespace terrella

@@ -73,10 +73,4 @@ void add_place_options(CLI::App& command, PlaceWords& words) {
   });
 }
 
-void set_place(CutOptions& cut, const PlaceWords& words) {
-  cut.crs = words.crs;
-  cut.west_deg = words.west_deg;
-  cut.crs_bounds = words.bounds;
-}
-
 }  // namespace terrella

@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 
 #include "base/result.h"
-#include "streaming/cut.h"
 #include "streaming/georeference/georeference.h"
 
 namespace terrella {
@@ -11,8 +10,5 @@ namespace terrella {
 /// Adds --crs, --bounds and --west for the place of a picture; `words` must outlive the parse, which checks
 /// them. thread: main
 void add_place_options(CLI::App& command, PlaceWords& words);
-
-/// Gives the words to a cut. thread: any
-void set_place(CutOptions& cut, const PlaceWords& words);
 
 }  // namespace terrella
