@@ -128,7 +128,7 @@ Status find_imagery(const SourceOptions& options) {
   if (is_remote(options.address) || names_mosaic(options.address)) return Done{};
   const fs::path path = options.address.empty() ? data_file("earth.gpkg") : fs::path(options.address.with_secrets());
   std::error_code failed;
-  if (!fs::exists(path, failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
+  if (!fs::exists(file_of(path), failed)) return Error{fmt::format("{}: no such file or folder", path.string())};
   return fs::is_directory(path, failed) ? Status(Done{}) : check_regular(path);
 }
 

@@ -6,6 +6,7 @@
 #include "streaming/cut.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/input/picture_place.h"
+#include "streaming/raster/picture_kind.h"
 
 namespace terrella {
 namespace {
@@ -25,7 +26,7 @@ Result<std::string> cache_name(const CutOptions& options) {
   const auto of_picture = cut_key(options, place_text(*place));
   if (!of_picture) return of_picture.error();
   std::error_code failed;
-  const fs::path canonical = fs::canonical(image, failed);
+  const fs::path canonical = fs::canonical(file_of(image), failed);
   if (failed) return Error{fmt::format("{}: cannot be opened: {}", image.string(), failed.message())};
   const std::string key = canonical.string() + "|" + *of_picture;
   return fmt::format("{}-{:016x}.gpkg", image.stem().string().substr(0, kMaxStemBytes), name_hash(key));

@@ -10,6 +10,7 @@
 
 #include "base/hash_mix.h"
 #include "streaming/mosaic/mosaic_list.h"
+#include "streaming/raster/picture_kind.h"
 
 namespace terrella {
 namespace {
@@ -70,7 +71,7 @@ Result<std::string> cut_key(const CutOptions& options, const std::string& place)
   if (options.raster) return key + fmt::format("\n{}", options.raster->key);
   for (const auto& image : images_of(options)) {
     struct stat found {};
-    if (stat(image.c_str(), &found) != 0) {
+    if (stat(file_of(image).c_str(), &found) != 0) {
       if (errno == ENOENT) return Error{fmt::format("{}: no such file", image.string())};
       return Error{fmt::format("{}: cannot be opened: {}", image.string(), std::strerror(errno))};
     }
@@ -88,7 +89,7 @@ std::string last_change_of(const std::vector<std::filesystem::path>& images) {
   std::time_t newest = 0;
   for (const auto& image : images) {
     struct stat found {};
-    if (stat(image.c_str(), &found) == 0) newest = std::max(newest, found.st_mtim.tv_sec);
+    if (stat(file_of(image).c_str(), &found) == 0) newest = std::max(newest, found.st_mtim.tv_sec);
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.000Z", fmt::gmtime(newest));
 }

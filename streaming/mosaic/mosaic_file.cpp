@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "streaming/raster/picture_kind.h"
 #include "streaming/raster/raster_pixels.h"
 
 namespace terrella {
@@ -29,7 +30,7 @@ void read_raster_header(const RasterHeader& header, MosaicFile& file) {
 
 Status look_at(MosaicFile& file) {
   struct stat found {};
-  if (stat(file.path.c_str(), &found) != 0) {
+  if (stat(file_of(file.path).c_str(), &found) != 0) {
     return Error{
         fmt::format("{}: {}", file.path.string(), errno == ENOENT ? "there is no such file" : std::strerror(errno))};
   }

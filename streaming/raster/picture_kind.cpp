@@ -44,13 +44,18 @@ fs::path file_of_sub_dataset(const std::string& name) {
 
 }  // namespace
 
+fs::path file_of(const fs::path& picture) {
+  std::error_code failed;
+  if (fs::exists(picture, failed)) return picture;
+  const fs::path part_of = file_of_sub_dataset(picture.string());
+  return fs::is_regular_file(part_of, failed) ? part_of : picture;
+}
+
 PictureKind picture_kind(const fs::path& path) {
   std::error_code failed;
   const std::string name = path.string();
   if (!fs::is_regular_file(path, failed)) {
-    const fs::path part_of = file_of_sub_dataset(name);
-    const bool is_part =
-        !part_of.empty() && fs::is_regular_file(part_of, failed) && load_gdal() && gdal_identifies(name);
+    const bool is_part = file_of(path) != path && load_gdal() && gdal_identifies(name);
     return is_part ? PictureKind::raster : PictureKind::none;
   }
   const auto bytes = read_head(path, 64);

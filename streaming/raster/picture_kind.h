@@ -16,6 +16,9 @@ enum class PictureKind {
 /// Blocks. thread: any
 [[nodiscard]] PictureKind picture_kind(const std::filesystem::path& path);
 
+/// The file that holds a picture: the path itself, or the file in GDAL's name of a sub-dataset. thread: any
+[[nodiscard]] std::filesystem::path file_of(const std::filesystem::path& picture);
+
 /// True for a file with the first bytes of a JPEG, PNG, WebP or TIFF. thread: any
 [[nodiscard]] bool begins_as_picture(const std::filesystem::path& path);
 

@@ -97,6 +97,8 @@ class FormatsTest(ProgramTest):
         self.assertIn("Band2", first.stderr)
         self.assert_done("render", second, "-o", "second.png", "--size", "64x64")
         self.assertEqual((self.folder / "first.png").read_bytes(), (self.folder / "second.png").read_bytes())
+        self.assert_done("cut", second, "-o", "second.gpkg")
+        self.assert_done("render", "--elevation", second, "-o", "relief.png", "--size", "64x64")
 
     def test_heights_of_any_format(self):
         heights = self.folder / "heights.dat"

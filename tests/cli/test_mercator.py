@@ -5,29 +5,15 @@ import math
 import shutil
 import subprocess
 import unittest
-import zlib
 
 import png
 import servers
-from pictures import png_of
+from pictures import TILE_PX, square_tile
 from program import ProgramTest
 
-TILE_PX, LEVELS = 64, 3
+LEVELS = 3
 SIDE = 256
 POLE = ("--unlit", "--sky", "off", "--camera", "90,0,3000000", "--size", f"{SIDE}x{SIDE}")
-
-
-def square_tile(z, x, y):
-    """No green at all, red throughout, waves of blue by which a server's grid can be told."""
-    rows = bytearray()
-    span = 2 * math.pi / (1 << z)
-    for j in range(TILE_PX):
-        rows.append(0)
-        lat = math.atan(math.sinh(math.pi - (y + (j + 0.5) / TILE_PX) * span))
-        for i in range(TILE_PX):
-            lon = (x + (i + 0.5) / TILE_PX) * span - math.pi
-            rows += bytes((255, 0, round(127.5 + 100 * math.sin(lon + 0.9) * math.cos(3 * lat + 0.4))))
-    return png_of(TILE_PX, TILE_PX, zlib.compress(bytes(rows), 1))
 
 
 def radius_px_of(lat_deg):

@@ -10,10 +10,11 @@ import unittest
 import pmtiles
 import servers
 from pictures import png
+from pictures import square_tile
 from pmtiles import archive, directory
 from program import DONE, DONE_IN_PART, FAILED, ProgramTest
 from range_server import range_server
-from test_mercator import LEVELS, square_tile
+from test_mercator import LEVELS
 
 VIEW = ("--unlit", "--sky", "off", "--camera", "20,10,9000000", "--size", "128x128")
 

@@ -5,13 +5,12 @@ import random
 import sqlite3
 import unittest
 
-import servers
-from preload_test import PreloadTest
-
 import pmtiles
+import servers
+from pictures import square_tile
+from preload_test import PreloadTest
 from program import DONE, DONE_IN_PART, FAILED
 from range_server import range_server
-from test_mercator import square_tile
 
 SPOILED = {"2/1/1.jpg": "zeroed", "2/2/1.jpg": "shifted", "2/3/1.jpg": "scrambled", "2/4/1.jpg": "truncated_jpeg"}
 LEVELS = 3

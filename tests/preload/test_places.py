@@ -11,10 +11,9 @@ import time
 import unittest
 
 import servers
+from pictures import square_tile
 from preload_test import PreloadTest
-
 from program import BLUE_MARBLE, DONE, DONE_IN_PART, FAILED, PROGRAM
-from test_mercator import square_tile
 
 LEVELS = 4
 HELD = "/3/15/7.jpg"

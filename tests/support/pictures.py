@@ -1,7 +1,10 @@
 """Makes small pictures as bytes, with the standard library alone."""
 
+import math
 import struct
 import zlib
+
+TILE_PX = 64  # of square_tile()
 
 PDS3_LABEL = """PDS_VERSION_ID = PDS3
 RECORD_TYPE = FIXED_LENGTH
@@ -57,3 +60,16 @@ def tiff_header(width, height):
                (273, 4, 1, 8), (277, 3, 1, 3), (278, 4, 1, height), (279, 4, 1, 64)]
     directory = struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *e) for e in entries)
     return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0)
+
+
+def square_tile(z, x, y):
+    """No green at all, red throughout, waves of blue by which a server's grid can be told."""
+    rows = bytearray()
+    span = 2 * math.pi / (1 << z)
+    for j in range(TILE_PX):
+        rows.append(0)
+        lat = math.atan(math.sinh(math.pi - (y + (j + 0.5) / TILE_PX) * span))
+        for i in range(TILE_PX):
+            lon = (x + (i + 0.5) / TILE_PX) * span - math.pi
+            rows += bytes((255, 0, round(127.5 + 100 * math.sin(lon + 0.9) * math.cos(3 * lat + 0.4))))
+    return png_of(TILE_PX, TILE_PX, zlib.compress(bytes(rows), 1))

@@ -95,6 +95,7 @@ Result<std::unique_ptr<RowReader>> open_any(const std::filesystem::path& path,
                                             int jobs) {
   const std::string name = path.string();
   if (Status regular = check_regular(path); !regular) return regular.error();
+  if (file_of(path) != path) return open_raster_rows(name, heights, choice, jobs);
   File file(std::fopen(name.c_str(), "rb"));
   if (!file && errno == ENOENT) return Error{fmt::format("{}: no such file", name)};
   if (!file) return Error{fmt::format("{}: cannot be opened: {}", name, std::strerror(errno))};
