@@ -4,7 +4,7 @@ import math
 import struct
 import zlib
 
-TILE_PX = 64  # of square_tile()
+TILE_PX = 64  # side of square_tile()
 
 PDS3_LABEL = """PDS_VERSION_ID = PDS3
 RECORD_TYPE = FIXED_LENGTH
