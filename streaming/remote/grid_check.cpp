@@ -2,14 +2,84 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
-#include "streaming/remote/thumbnail.h"
+#include "codecs/image.h"
 #include "tiles/tile_range.h"
 
 namespace terrella {
 namespace {
+
+/// Means of red, green and blue in 16 × 16 cells of a picture, in 8-bit levels. Averaging removes fine detail, JPEG
+/// noise and the smoothing of coarser levels.
+constexpr int kThumbnailSide = 16;
+using Thumbnail = std::array<float, std::size_t{3} * kThumbnailSide * kThumbnailSide>;
+
+/// A part of a picture, as fractions of its sides.
+struct PicturePart {
+  double left = 0.0, top = 0.0, right = 1.0, bottom = 1.0;
+};
+
+struct PixelSpan {
+  int first, last;  ///< pixels, the last excluded; never empty
+};
+
+PixelSpan cell(int size_px, double from, double to, int index) {
+  const double step = (to - from) / kThumbnailSide;
+  const int first = std::clamp(static_cast<int>(std::lround(size_px * (from + step * index))), 0, size_px - 1);
+  const int last = static_cast<int>(std::lround(size_px * (from + step * (index + 1))));
+  return {first, std::clamp(last, first + 1, size_px)};
+}
+
+std::array<float, 3> mean_of(const Image& image, const PixelSpan& x, const PixelSpan& y) {
+  std::array<double, 3> sum{};
+  for (int row = y.first; row < y.last; ++row) {
+    for (int column = x.first; column < x.last; ++column) {
+      const std::size_t at = 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
+                                  static_cast<std::size_t>(column));
+      const double alpha = image.rgba[at + 3] / 255.0;
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += alpha * image.rgba[at + c];
+    }
+  }
+  const double count = static_cast<double>(x.last - x.first) * (y.last - y.first);
+  return {static_cast<float>(sum[0] / count), static_cast<float>(sum[1] / count), static_cast<float>(sum[2] / count)};
+}
+
+Thumbnail thumbnail_of(const Image& image, const PicturePart& part = {}) {
+  Thumbnail small{};
+  std::size_t at = 0;
+  for (int row = 0; row < kThumbnailSide; ++row) {
+    const PixelSpan y = cell(image.height_px, part.top, part.bottom, row);
+    for (int column = 0; column < kThumbnailSide; ++column, at += 3) {
+      const auto mean = mean_of(image, cell(image.width_px, part.left, part.right, column), y);
+      std::copy(mean.begin(), mean.end(), small.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+  }
+  return small;
+}
+
+/// Root mean square difference, levels. Transparent pixels count as black.
+double difference(const Thumbnail& a, const Thumbnail& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// Standard deviation from the mean colour, levels.
+double contrast(const Thumbnail& picture) {
+  Thumbnail mean{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    double sum = 0.0;
+    for (std::size_t i = c; i < picture.size(); i += 3) sum += picture[i];
+    for (std::size_t i = c; i < picture.size(); i += 3)
+      mean[i] = static_cast<float>(3.0 * sum / static_cast<double>(picture.size()));
+  }
+  return difference(picture, mean);
+}
 
 using Verdict = GridCheck::Verdict;
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/open_scene/options/layer_options.h"
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
