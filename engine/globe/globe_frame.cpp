@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -52,6 +53,11 @@ void GlobeView::Impl::look(Viewport viewport) {
   view = eyes->both;
 }
 
+// Slopes may be nearer than the ground under the eye.
+double GlobeView::Impl::clearance_m() const {
+  return 0.5 * std::max(1.0, std::abs(globe->ground().height_over_m(camera.eye)));
+}
+
 PatchSelectionOptions GlobeView::Impl::selection_options() const {
   const GlobeOptions& options = globe->options;
   PatchSelectionOptions selection;
@@ -63,6 +69,10 @@ PatchSelectionOptions GlobeView::Impl::selection_options() const {
     selection.max_footprint_texels = kLitPixel_texels;
     selection.slant_power = kLitSlantPower;
     selection.columns_beside = true;
+  }
+  if (globe->has_ground()) {
+    selection.most_patch_px = GroundPictures::kMostPatch_px;
+    selection.clearance_m = clearance_m();
   }
   selection.mesh_budget = options.relief_meshes_per_frame;
   if (options.surface.inner_sphere_below_m) {
@@ -123,6 +133,8 @@ FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px)
                    .stereo = stereo.mode,
                    .layers = {},
                    .relief = globe->relief(),
+                   .ground = ground.frame.empty() ? nullptr : &ground.frame,
+                   .ground_gpu = &ground.gpu,
                    .surface = options.surface,
                    .sky = sky(),
                    .lit = !options.unlit,
@@ -146,6 +158,7 @@ void GlobeView::Impl::count() {
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
+  if (globe->ground_pictures) stats.gpu_bytes += globe->ground_pictures->bytes();
   stats.height_bytes = globe->heights ? globe->relief()->bytes() : 0;
   for (const LayerView* layer : stack) {
     stats.gpu_bytes += layer->layer().gpu_bytes();
@@ -169,9 +182,28 @@ void GlobeView::Impl::plan(Viewport viewport) {
   execute(last_plan);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
   for (LayerView* layer : stack) layer->ask();
+  plan_ground();
   if (!globe->heights) return;
   stats.heights_pending = globe->heights->ask(viewers());
   stats.heights_missing = globe->relief()->missing();
+}
+
+void GlobeView::Impl::plan_ground() {
+  if (!globe->has_ground()) {
+    ground = {};
+    return;
+  }
+  globe->ground_pictures->take_painted(frame);
+  globe->ground_pictures->plan({.view = view,
+                                .tree = stack.front()->tree(),
+                                .patches = stack.front()->patches(),
+                                .has_relief = globe->heights != nullptr,
+                                .clearance_m = clearance_m(),
+                                .frame = frame},
+                               ground);
+  std::vector<const ViewGround*> views;
+  for (const Impl* each : globe->views) views.push_back(&each->ground);
+  globe->ground_pictures->ask(views);
 }
 
 // This view first, then the other views that have drawn.
@@ -238,7 +270,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
 bool GlobeView::Impl::settled() const {
   if (frame == 0 || !status) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
-  if (std::ranges::any_of(globe->objects, &ObjectLayer::waits)) return false;
+  if (std::ranges::any_of(globe->objects, &ObjectLayer::waits) || !ground.wants.empty()) return false;
   return std::ranges::all_of(stack, [](const LayerView* layer) { return layer->settled(); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "globe/experiments.h"
 #include "globe/globe.h"
+#include "globe/ground_pictures.h"
 #include "globe/height_layer.h"
 #include "globe/image_layer.h"
 #include "globe/object_layer.h"
@@ -42,7 +43,9 @@ struct Globe::Impl {
   [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
   void share_gpu();
   Status show_layers();
-  void take_cuts();  ///< takes the objects that workers have cut, and lets objects follow the ground
+  void take_cuts();      ///< takes the objects that workers have cut, and lets objects follow the ground
+  void follow_ground();  ///< takes changes of what lies on the ground
+  [[nodiscard]] bool has_ground() const { return ground_pictures && !ground_pictures->empty(); }
   [[nodiscard]] std::shared_ptr<const Relief> shared_relief() const { return heights ? heights->relief() : nullptr; }
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }
 
@@ -66,7 +69,8 @@ struct Globe::Impl {
   std::vector<ObjectLayer> objects;
   std::size_t objects_cut = 0;  ///< objects cut since the last frame
   std::unique_ptr<GlobeRenderer> renderer;
-  std::optional<Almanac> almanac;  ///< set if there is a sky or a time
+  std::unique_ptr<GroundPictures> ground_pictures;  ///< made when something lies on the ground
+  std::optional<Almanac> almanac;                   ///< set if there is a sky or a time
   bool sky_on = false;
   std::uint64_t frame = 0;  ///< counts the frames of all views
   bool changed = true;      ///< something that all views show has changed since the last frame of any view

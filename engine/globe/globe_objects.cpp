@@ -23,6 +23,9 @@ Status take_faulty(std::vector<Edit>& edits) {
   return first;
 }
 
+/// Part of GlobeOptions::gpu_bytes that pictures of the ground may take.
+constexpr std::size_t kGroundShare = 4;
+
 Status check_opacity(double opacity) { return RangeCheck().in("the opacity", opacity, 0.0, 1.0).result(); }
 
 Status report(const std::vector<ObjectId>& unknown) {
@@ -141,6 +144,20 @@ void Globe::Impl::take_cuts() {
     replaced = layer.take_replaced() || replaced;
   }
   if (replaced) static_cast<void>(show_layers());
+  follow_ground();
+}
+
+void Globe::Impl::follow_ground() {
+  std::vector<DrawnLayer> layers;
+  for (ObjectLayer& layer : objects) {
+    if (layer.is_drawn()) layers.push_back(layer.drawn());
+  }
+  const bool any =
+      std::ranges::any_of(layers, [](const DrawnLayer& layer) { return !layer.objects->batches().ground.empty(); });
+  if (!ground_pictures && any) {
+    ground_pictures = std::make_unique<GroundPictures>(options.gpu_bytes / kGroundShare, bell);
+  }
+  if (ground_pictures && ground_pictures->follow(layers)) changed = true;
 }
 
 }  // namespace terrella

@@ -25,6 +25,7 @@ void Globe::Impl::end_views() {
   for (GlobeView::Impl* view : views) {
     view->stack.clear();
     view->memory = {};
+    view->ground = {};
     view->globe = nullptr;
   }
   views.clear();
@@ -135,6 +136,7 @@ bool GlobeView::Impl::needs_frame() const {
   if (globe->changed || changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
   if (globe->heights && globe->heights->has_news(heights_seen, stats.heights_pending > 0)) return true;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::has_news)) return true;
+  if (globe->has_ground() && globe->ground_pictures->has_news()) return true;
   return std::ranges::any_of(stack, [](const LayerView* layer) { return layer->has_news(); });
 }
 

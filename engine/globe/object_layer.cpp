@@ -57,7 +57,7 @@ std::size_t ObjectLayer::follow(Version& version, const Ellipsoid& ellipsoid,
   const bool stands = version.objects.stands_on_ground(), other = version.relief != relief;
   const std::uint64_t seen = relief ? relief->changes_seen() : 0;
   if (!other && (!stands || seen == version.heights_seen)) return 0;
-  if (stands && !version.cutting.empty()) return 0;
+  if (!version.cutting.empty()) return 0;
   version.objects.follow(Ground(ellipsoid, relief), [&](const Geodetic& place) {
     return other || relief->changed_since(place, version.heights_seen);
   });

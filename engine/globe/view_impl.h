@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "globe/globe.h"
+#include "globe/ground_pictures.h"
 #include "globe/height_layer.h"
 #include "globe/layer_view.h"
 #include "render/gl/gl_state.h"
@@ -71,6 +72,8 @@ struct GlobeView::Impl {
   [[nodiscard]] FrameSnapshot snapshot();
   void execute(FramePlan& plan);
   void plan(Viewport viewport);
+  void plan_ground();
+  [[nodiscard]] double clearance_m() const;
   void count();
   [[nodiscard]] std::vector<HeightLayer::Viewer> viewers() const;
   void take_heights();
@@ -88,6 +91,7 @@ struct GlobeView::Impl {
   StereoLook stereo;
   std::vector<LayerView*> stack;  ///< layers that the last frame drew: the opaque base layer, upper layers
   PictureMemory memory;
+  ViewGround ground;
   View view;  ///< view for selection: the eye's, or both eyes'
   std::optional<EyePair> eyes;
   std::uint64_t frame = 0;  ///< number of the last frame; 0: none

@@ -25,16 +25,6 @@ void append_way(const std::vector<glm::dvec3>& way, bool closed, std::vector<Lin
   out.push_back(vertex(closed ? way[1] : way.back(), 0.0F));
 }
 
-std::vector<DrapeTriangle> drape_of(const FillMesh& mesh) {
-  std::vector<DrapeTriangle> drape(mesh.indices.size() / 3);
-  for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
-    const SplitPosition p = split_position(mesh.positions_m[mesh.indices[k]]);
-    drape[k / 3].high_m[k % 3] = p.high;
-    drape[k / 3].low_m[k % 3] = p.low;
-  }
-  return drape;
-}
-
 /// Fills an area, and takes its cost off the job.
 FillMesh fill(const PolygonObject& area, CutJob& job) {
   FillMesh mesh = fill_area(area, job.ellipsoid, job.most_triangles, job.spare_steps);
@@ -66,15 +56,16 @@ AreaCut cut_solid(const CutJob::Area& area, CutJob& job) {
 AreaCut cut_area(const CutJob::Area& area, CutJob& job) {
   AreaCut cut{.index = area.index};
   const PolygonObject& shape = *area.shape;
+  if (area.on_ground) {
+    cut.ground = std::make_shared<GroundShape>(ground_shape(shape, area.fill));
+    cut.fault = cut.ground->fault;
+    return cut;
+  }
   if (is_extruded(shape)) return cut_solid(area, job);
   double lift_m = sag_m(job.ellipsoid, job.step);
   if (area.fill) {
     FillMesh mesh = fill(shape, job);
     cut.fault = mesh.fault;
-    if (is_draped(shape)) {
-      cut.draped = drape_of(mesh);
-      mesh = {};
-    }
     cut.triangles = std::move(mesh.indices);
     cut.fill.reserve(mesh.positions_m.size());
     for (const glm::dvec3& p_m : mesh.positions_m) {
@@ -91,16 +82,20 @@ AreaCut cut_area(const CutJob::Area& area, CutJob& job) {
 
 }  // namespace
 
-std::size_t triangles_of(const AreaCut& cut) {
-  return (cut.triangles.size() + cut.solid.size()) / 3 + cut.draped.size();
-}
+std::size_t triangles_of(const AreaCut& cut) { return (cut.triangles.size() + cut.solid.size()) / 3; }
 
 bool CutJob::is_large() const {
   double pieces = 0.0;
-  for (const Line& line : lines) pieces += double(line.shape->places.size()) + length_of(line.shape->places) / step;
+  for (const Line& line : lines) {
+    pieces += double(line.shape->places.size());
+    if (!line.on_ground) pieces += length_of(line.shape->places) / step;
+  }
   for (const Area& area : areas) {
-    if (area.fill) pieces += kPiecesOfAFill;
-    for (const auto& ring : area.shape->rings) pieces += double(ring.size()) + length_of(ring) / step;
+    if (area.fill && !area.on_ground) pieces += kPiecesOfAFill;
+    for (const auto& ring : area.shape->rings) {
+      pieces += double(ring.size());
+      if (!area.on_ground) pieces += length_of(ring) / step;
+    }
   }
   return !(pieces <= kMostPiecesAtOnce);
 }
@@ -125,6 +120,10 @@ CutObjects cut_objects(CutJob job, const std::atomic<bool>& stop) {
   for (const CutJob::Line& line : job.lines) {
     if (stop) return cut;
     cut.lines.push_back({.index = line.index, .vertices = {}});
+    if (line.on_ground) {
+      cut.lines.back().ground = std::make_shared<GroundShape>(ground_shape(*line.shape, job.ellipsoid));
+      continue;
+    }
     append_way(line_along_geodesics(line.shape->places, job.ellipsoid, job.step), false, cut.lines.back().vertices);
   }
   std::ranges::stable_sort(job.areas, {}, &CutJob::Area::height_m);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geo/ellipsoid.h"
+#include "objects/ground/ground_shape.h"
 #include "objects/object_batches.h"
 #include "objects/object_shapes.h"
 #include "objects/solid/solid_area.h"
@@ -20,6 +21,7 @@ inline constexpr std::size_t kMostFillTriangles = 8'000'000;
 struct LineCut {
   std::uint32_t index = 0;  ///< index of the line in its layer
   std::vector<LineVertex> vertices;
+  std::shared_ptr<const GroundShape> ground = {};  ///< in place of vertices, if the line lies on the ground
 };
 
 /// An area, cut likewise: its fill and its outlines.
@@ -27,10 +29,10 @@ struct AreaCut {
   std::uint32_t index = 0;  ///< index of the area in its layer
   std::vector<FillVertex> fill = {};
   std::vector<std::uint32_t> triangles = {};
-  std::vector<DrapeTriangle> draped = {};  ///< in place of these two, if the area lies on the ground
-  std::vector<SolidVertex> solid = {};     ///< in place of all these, if the area is extruded
+  std::vector<SolidVertex> solid = {};  ///< in place of these two, if the area is extruded
   std::vector<LineVertex> outline = {};
-  FillFault fault = FillFault::none;  ///< reason for a missing fill
+  std::shared_ptr<const GroundShape> ground = {};  ///< in place of all these, if the area lies on the ground
+  FillFault fault = FillFault::none;               ///< reason for a missing fill
 };
 
 /// Returns the number of triangles of a fill.
@@ -41,12 +43,14 @@ struct CutJob {
   struct Line {
     std::uint32_t index;
     std::shared_ptr<const LineObject> shape;
+    bool on_ground;  ///< lies_on_ground()
   };
   struct Area {
     std::uint32_t index;
     std::shared_ptr<const PolygonObject> shape;
     bool fill, outline;  ///< parts that have a colour
     double height_m;     ///< mean height of the places
+    bool on_ground;      ///< lies_on_ground()
   };
   Ellipsoid ellipsoid;
   Angle step{};  ///< step between the vertices of lines and outlines (line_step())

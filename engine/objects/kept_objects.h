@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geo/split_position.h"
+#include "objects/ground/ground_batch.h"
 #include "objects/object_pick.h"
 #include "objects/object_picker.h"
 #include "objects/slot_batch.h"
@@ -33,10 +34,18 @@ struct KeptPoint : Kept {
   std::uint32_t image = 0;  ///< index of an icon's picture in LayerBatches::icon_images
 };
 
+/// The place of a line or an area on the ground, which has no slots.
+struct KeptOnGround {
+  bool lies = false;  ///< lies_on_ground() when it was cut
+  std::shared_ptr<const GroundShape> shape = {};
+  std::uint32_t place = GroundBatch::kNone;  ///< in LayerBatches::ground
+};
+
 /// Lines and areas share their places with the workers that cut them. A slot is empty until the object is cut.
 struct KeptLine : Kept {
   std::shared_ptr<LineObject> object;
   Slot slot = {};
+  KeptOnGround ground = {};
   bool asked = false;                    ///< a job was made to cut it
   std::unique_ptr<PickWay> picked = {};  ///< made by the first pick near it
 };
@@ -44,7 +53,8 @@ struct KeptLine : Kept {
 struct KeptArea : Kept {
   std::shared_ptr<PolygonObject> object;
   double height_m = 0.0;
-  Slot fill = {}, triangles = {}, outline = {};  ///< a draped or extruded fill is its triangles
+  Slot fill = {}, triangles = {}, outline = {};  ///< an extruded fill is its triangles
+  KeptOnGround ground = {};
   bool asked_fill = false, asked_outline = false;
   FillFault fault = FillFault::none;
   std::unique_ptr<PickArea> picked = {};

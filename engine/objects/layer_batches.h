@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "objects/ground/ground_batch.h"
 #include "objects/slot_batch.h"
 #include "objects/sphere_groups.h"
 
@@ -44,10 +45,7 @@ struct LayerBatches {
   std::uint64_t fill_version = 0;                                     ///< counts changes of fill_runs
   SlotBatch<SolidVertex> solids;                                      ///< extruded areas: corners of triangles
   std::vector<ModelStands> models;
-  /// Objects that lie on the ground, each list in the order of the objects in one bucket.
-  static constexpr std::size_t kDraped = Batch<char>::kBuckets - 1;
-  SlotBatch<LineVertex> draped_lines;
-  SlotBatch<DrapeTriangle> draped_fills;
+  GroundBatch ground;  ///< lines and areas that lie on the ground
 };
 
 }  // namespace terrella

@@ -38,7 +38,7 @@ void LayerObjects::put_fill(KeptArea& area, std::span<const FillVertex> fill, st
 void LayerObjects::ask_for(std::uint32_t index, KeptLine& line) {
   if (line.asked || line.object->color.alpha == 0 || !(line.object->width_px > 0.0F)) return;
   line.asked = true;
-  job_.lines.push_back({index, as_cut(line.object)});
+  job_.lines.push_back({index, as_cut(line.object), lies_on_ground(*line.object, ground_)});
 }
 
 // An outline lies at the height of the fill, so both are cut together.
@@ -50,7 +50,8 @@ void LayerObjects::ask_for(std::uint32_t index, KeptArea& area) {
   area.asked_outline = area.asked_outline || outline;
   const std::shared_ptr<const PolygonObject> shape = as_cut(area.object);
   area.height_m = mean_height_m(*shape);
-  job_.areas.push_back({index, shape, area.asked_fill, area.asked_outline, area.height_m});
+  job_.areas.push_back(
+      {index, shape, area.asked_fill, area.asked_outline, area.height_m, lies_on_ground(*area.object, ground_)});
 }
 
 CutJob LayerObjects::take_job() {
@@ -69,7 +70,10 @@ void LayerObjects::place(CutObjects cut) {
 void LayerObjects::place(LineCut& cut) {
   KeptLine& line = lines_[cut.index];
   if (line.removed) return;
-  put(line, cut.vertices);
+  if (line.ground.lies != (cut.ground != nullptr)) drop({ObjectKind::line, cut.index});
+  line.ground.lies = cut.ground != nullptr;
+  line.ground.shape = std::move(cut.ground);
+  if (!line.ground.lies) put(line, cut.vertices);
   draw(line);
 }
 
@@ -77,14 +81,15 @@ void LayerObjects::place(AreaCut& cut) {
   KeptArea& area = areas_[cut.index];
   if (area.removed) return;
   replaced_ += area.fill.count + area.outline.count > 0 ? 1U : 0U;
-  drop({ObjectKind::polygon, cut.index});
+  if (!area.ground.lies || !cut.ground) drop({ObjectKind::polygon, cut.index});
   triangles_ += triangles_of(cut);
   area.fault = cut.fault;
-  area.outline = lines_of(is_draped(*area.object)).add(outline_bucket(area), cut.outline);
+  area.ground.lies = cut.ground != nullptr;
+  area.ground.shape = std::move(cut.ground);
+  if (area.ground.lies) return draw(area);
+  area.outline = batches_.lines.add(outline_bucket(area), cut.outline);
   if (is_extruded(*area.object)) {
     area.fill = batches_.solids.add(fill_bucket(area), cut.solid);
-  } else if (is_draped(*area.object)) {
-    area.fill = batches_.draped_fills.add(LayerBatches::kDraped, cut.draped);
   } else {
     put_fill(area, cut.fill, std::move(cut.triangles));
   }
@@ -103,6 +108,7 @@ std::vector<MissingFill> LayerObjects::missing_fills() const {
 void LayerObjects::place_all_again() {
   LayerBatches old = std::exchange(batches_, LayerBatches{});
   batches_.fill_version = old.fill_version + 1;
+  batches_.ground.note(old.ground.take_changes());
   replaced_ = 0;
   for (KeptPoint& point : points_) {
     point.slot = {};
@@ -114,18 +120,16 @@ void LayerObjects::place_all_again() {
   }
   for (KeptLine& line : lines_) {
     if (line.removed) continue;
-    const bool draped = is_draped(*line.object);
-    line.slot = lines_of(draped).add(bucket_of(line), (draped ? old.draped_lines : old.lines).at(line.slot));
+    line.ground.place = GroundBatch::kNone;
+    line.slot = batches_.lines.add(bucket_of(line), old.lines.at(line.slot));
     draw(line);
   }
   for (KeptArea& area : areas_) {
     if (area.removed) continue;
-    const bool draped = is_draped(*area.object);
-    area.outline = lines_of(draped).add(outline_bucket(area), (draped ? old.draped_lines : old.lines).at(area.outline));
+    area.ground.place = GroundBatch::kNone;
+    area.outline = batches_.lines.add(outline_bucket(area), old.lines.at(area.outline));
     if (is_extruded(*area.object)) {
       area.fill = batches_.solids.add(fill_bucket(area), old.solids.at(area.fill));
-    } else if (draped) {
-      area.fill = batches_.draped_fills.add(LayerBatches::kDraped, old.draped_fills.at(area.fill));
     } else {
       put_fill(area, old.fill_vertices.at(area.fill), own_triangles(old, area));
     }

@@ -57,8 +57,6 @@ class LayerObjects {
 
   [[nodiscard]] bool has(ObjectPart part) const;  ///< true if cut objects have this part to draw
 
-  [[nodiscard]] bool has_drapes() const;  ///< lines or areas that lie on the ground, and are cut
-
   [[nodiscard]] std::uint64_t serial() const { return serial_; }  ///< changes when the indices of objects change
 
   // Labels.
@@ -117,7 +115,8 @@ class LayerObjects {
   [[nodiscard]] IconInstance icon(const KeptPoint& point) const;
   [[nodiscard]] MeshStand stand(const KeptMesh& mesh) const;
   // layer_ground.cpp: objects on the ground
-  [[nodiscard]] SlotBatch<LineVertex>& lines_of(bool draped);
+  void cut_again_on_other_ground();
+  void put_on_ground(KeptOnGround& kept, GroundObject object);
   void put(KeptLine& line, std::span<const LineVertex> vertices);
   [[nodiscard]] glm::dvec3 place_of(const Geodetic& place, HeightMode mode) const;
   /// Shares the object if its heights do not depend on the ground.

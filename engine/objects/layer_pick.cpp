@@ -101,7 +101,7 @@ std::optional<PickedObject> LayerObjects::pick(const View& view, const Ground& g
   std::vector<std::uint32_t> items;
   index_->find(PickCone(view, pixel_px, most_reach_px_ + options.slack_px), items);
   ObjectPicker picker(view, ground, pixel_px, options);
-  if (has_drapes()) {
+  if (!batches_.ground.empty()) {
     if (const auto* cone = picker.cone_on_ground(most_reach_px_ + options.slack_px)) index_->find(*cone, items);
   }
   std::ranges::sort(items, {}, [](std::uint32_t item) {

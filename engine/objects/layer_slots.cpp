@@ -49,12 +49,10 @@ std::size_t LayerObjects::bucket_of(const KeptPoint& point) const {
 }
 
 std::size_t LayerObjects::bucket_of(const KeptLine& line) const {
-  if (is_draped(*line.object)) return LayerBatches::kDraped;
   return bucket_of(is_underground(*line.object), line.object->color, line.object->through_surface);
 }
 
 std::size_t LayerObjects::outline_bucket(const KeptArea& area) const {
-  if (is_draped(*area.object)) return LayerBatches::kDraped;
   return bucket_of(is_underground(*area.object), area.object->stroke, area.object->through_surface);
 }
 
@@ -126,18 +124,16 @@ void LayerObjects::drop(PartRef part) {
       batches_.markers.drop(point.slot);
     }
   } else if (part.kind == ObjectKind::line) {
-    lines_of(is_draped(*lines_[part.index].object)).drop(lines_[part.index].slot);
+    put_on_ground(lines_[part.index].ground, {});
+    batches_.lines.drop(lines_[part.index].slot);
   } else if (part.kind == ObjectKind::polygon) {
     KeptArea& area = areas_[part.index];
-    const bool draped = is_draped(*area.object), extruded = is_extruded(*area.object);
-    triangles_ -= draped ? area.fill.count : (extruded ? area.fill : area.triangles).count / 3;
+    const bool extruded = is_extruded(*area.object);
+    triangles_ -= (extruded ? area.fill : area.triangles).count / 3;
     area.triangles = {};
-    lines_of(draped).drop(area.outline);
-    if (extruded) {
-      batches_.solids.drop(area.fill);
-    } else {
-      draped ? batches_.draped_fills.drop(area.fill) : batches_.fill_vertices.drop(area.fill);
-    }
+    put_on_ground(area.ground, {});
+    batches_.lines.drop(area.outline);
+    extruded ? batches_.solids.drop(area.fill) : batches_.fill_vertices.drop(area.fill);
   } else if (part.kind == ObjectKind::mesh && meshes_[part.index].object.model) {
     batches_.models[meshes_[part.index].model].stands.drop(meshes_[part.index].slot);
   } else if (part.kind == ObjectKind::label) {
@@ -219,19 +215,22 @@ void LayerObjects::color_line(SlotBatch<LineVertex>& lines, Slot& slot, std::siz
 
 void LayerObjects::draw(KeptLine& line) {
   const LineObject& object = *line.object;
-  color_line(lines_of(is_draped(object)), line.slot, bucket_of(line), drawn(object.color, line), object.width_px);
+  if (line.ground.shape) {
+    return put_on_ground(line.ground, {line.ground.shape, {0, 0, 0, 0}, drawn(object.color, line), object.width_px});
+  }
+  color_line(batches_.lines, line.slot, bucket_of(line), drawn(object.color, line), object.width_px);
 }
 
 void LayerObjects::draw(KeptArea& area) {
   const PolygonObject& object = *area.object;
-  color_line(lines_of(is_draped(object)), area.outline, outline_bucket(area), drawn(object.stroke, area),
-             object.stroke_width_px);
+  if (area.ground.shape) {
+    const ObjectColor none{0, 0, 0, 0};
+    return put_on_ground(area.ground, {area.ground.shape, area.asked_fill ? drawn(object.fill, area) : none,
+                                       drawn(object.stroke, area), object.stroke_width_px});
+  }
+  color_line(batches_.lines, area.outline, outline_bucket(area), drawn(object.stroke, area), object.stroke_width_px);
   if (area.fill.count == 0) return;
   if (is_extruded(object)) return draw_solid(area);
-  if (is_draped(object)) {
-    for (DrapeTriangle& triangle : batches_.draped_fills.change(area.fill)) triangle.color = drawn(object.fill, area);
-    return;
-  }
   if (area.fill.bucket != fill_bucket(area)) {
     const std::vector<FillVertex> vertices = copy_of(batches_.fill_vertices.at(area.fill));
     std::vector<std::uint32_t> triangles = own_triangles(batches_, area);

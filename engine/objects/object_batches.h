@@ -70,14 +70,6 @@ struct SolidVertex {
 };
 static_assert(sizeof(SolidVertex) == 40);
 
-/// A triangle of an area that lies on the ground, corners on the ellipsoid, counterclockwise or not.
-struct DrapeTriangle {
-  std::array<glm::vec3, 3> high_m;
-  std::array<glm::vec3, 3> low_m;
-  ObjectColor color;
-};
-static_assert(sizeof(DrapeTriangle) == 76);
-
 /// Objects of one kind, sorted by part, then by opacity (opaque first), then by choice. Within these, objects keep the
 /// layer's order. So each draw takes one contiguous range.
 template <class T>

@@ -22,7 +22,9 @@ Angle pick_step(const std::vector<Geodetic>& places) {
   return std::max(kLineStep, Angle::radians(length_of(places).rad() / kMostPickPieces));
 }
 
-bool crossed(const MapRing& ring, const MapPoint& p) {
+}  // namespace
+
+bool crosses_odd(const MapRing& ring, const MapPoint& p) {
   bool odd = false;
   for (std::size_t k = 0, before = ring.size() - 1; k < ring.size(); before = k++) {
     const MapPoint &a = ring[before], &b = ring[k];
@@ -33,21 +35,18 @@ bool crossed(const MapRing& ring, const MapPoint& p) {
   return odd;
 }
 
-/// The rings of an area on the map; none if one is invalid.
-std::vector<MapRing> map_rings(const PolygonObject& polygon) {
+std::optional<std::vector<MapRing>> map_rings_of(const PolygonObject& polygon) {
   std::vector<MapRing> all;
   for (const auto& ring : polygon.rings) {
     std::vector<MapPoint> positions;
     positions.reserve(ring.size());
     for (const Geodetic& place : ring) positions.push_back({place.lon.deg(), place.lat.deg()});
     Result<std::vector<MapRing>> rings = rings_of(positions);
-    if (!rings) return {};
+    if (!rings) return std::nullopt;
     for (MapRing& closed : *rings) all.push_back(std::move(closed));
   }
   return all;
 }
-
-}  // namespace
 
 PickWay::PickWay(std::vector<glm::dvec3> places) : places_m(std::move(places)) {
   for (std::size_t first = 0; first + 1 < places_m.size(); first += kRun) {
@@ -65,7 +64,7 @@ PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid) {
 }
 
 PickArea::PickArea(const PolygonObject& polygon, const Ellipsoid& ellipsoid)
-    : rings(map_rings(polygon)),
+    : rings(map_rings_of(polygon).value_or(std::vector<MapRing>())),
       height_m(mean_height_m(polygon)),
       depth_m(is_extruded(polygon) ? polygon.extrude_m : 0.0) {
   height_m += depth_m;
@@ -80,7 +79,7 @@ bool PickArea::covers(const MapPoint& p) const {
     return false;
   }
   bool in = false;
-  for (const MapRing& ring : rings) in = in != crossed(ring, p);
+  for (const MapRing& ring : rings) in = in != crosses_odd(ring, p);
   return in;
 }
 

@@ -30,6 +30,10 @@ struct PickArea {
   double depth_m;  ///< height of the walls under the outlines; 0: no walls
 };
 
+/// The rings of an area on the map (rings_of()); none if one is invalid.
+[[nodiscard]] std::optional<std::vector<MapRing>> map_rings_of(const PolygonObject& polygon);
+/// True if a ring on the map goes an odd number of times past the east of a place.
+[[nodiscard]] bool crosses_odd(const MapRing& ring, const MapPoint& place);
 [[nodiscard]] PickWay pick_way(const LineObject& line, const Ellipsoid& ellipsoid);
 /// True if a point is drawn as an icon.
 [[nodiscard]] inline bool is_icon(const PointObject& point) { return point.icon.image && !(point.radius_m > 0.0); }

@@ -14,19 +14,19 @@ using glm::dvec3;
 /// Geodesics on one ellipsoid. Uses the exact form, because the series loses digits on flat bodies such as Saturn.
 class GeodesicWays {
  public:
-  explicit GeodesicWays(const Ellipsoid& ellipsoid)
-      : ellipsoid_(ellipsoid), geodesics_(ellipsoid.a_m(), ellipsoid.f()) {}
+  explicit GeodesicWays(const Ellipsoid& ellipsoid) : geodesics_(ellipsoid.a_m(), ellipsoid.f()) {}
 
-  /// Appends the places at 1/n, 2/n … of the way, without the last.
-  void between(const Geodetic& a, const Geodetic& b, int n, double lift_m, std::vector<dvec3>& out) const {
+  /// Calls use(place) for the places at 1/n, 2/n … of the way, without the last.
+  template <class Use>
+  void between(const Geodetic& a, const Geodetic& b, int n, Use use) const {
     const auto way = geodesics_.InverseLine(latitude_deg(a), a.lon.deg(), latitude_deg(b), b.lon.deg());
     for (int k = 1; k < n; ++k) {
       const double part = double(k) / n;
       double lat = 0.0, lon = 0.0;
       way.Position(part * way.Distance(), lat, lon);
-      const double height_m = a.height_m + part * (b.height_m - a.height_m) + lift_m;
-      out.push_back(
-          ellipsoid_.to_ecef({.lat = Angle::degrees(lat), .lon = Angle::degrees(lon), .height_m = height_m}).xyz_m);
+      use(Geodetic{.lat = Angle::degrees(lat),
+                   .lon = Angle::degrees(lon),
+                   .height_m = a.height_m + part * (b.height_m - a.height_m)});
     }
   }
 
@@ -34,7 +34,6 @@ class GeodesicWays {
   // Rounding to radians and back may put a latitude beyond the pole.
   static double latitude_deg(const Geodetic& p) { return std::clamp(p.lat.deg(), -90.0, 90.0); }
 
-  const Ellipsoid& ellipsoid_;
   GeographicLib::GeodesicExact geodesics_;
 };
 
@@ -98,8 +97,23 @@ std::vector<dvec3> line_along_geodesics(const std::vector<Geodetic>& places, con
   std::vector<dvec3> line{lifted(places.front(), ellipsoid, lift_m)};
   for (std::size_t k = 1; k < places.size(); ++k) {
     const int n = pieces(between(places[k - 1], places[k]), step);
-    if (n > 1) ways.between(places[k - 1], places[k], n, lift_m, line);
+    const auto add = [&](const Geodetic& place) { line.push_back(lifted(place, ellipsoid, lift_m)); };
+    if (n > 1) ways.between(places[k - 1], places[k], n, add);
     line.push_back(lifted(places[k], ellipsoid, lift_m));
+  }
+  return line;
+}
+
+std::vector<EcefDir> normals_along_geodesics(const std::vector<Geodetic>& places, const Ellipsoid& ellipsoid,
+                                             Angle step) {
+  if (places.empty()) return {};
+  const GeodesicWays ways(ellipsoid);
+  std::vector<EcefDir> line{Ellipsoid::normal(places.front().lat, places.front().lon)};
+  const auto add = [&](const Geodetic& place) { line.push_back(Ellipsoid::normal(place.lat, place.lon)); };
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const int n = pieces(between(places[k - 1], places[k]), step);
+    if (n > 1) ways.between(places[k - 1], places[k], n, add);
+    add(places[k]);
   }
   return line;
 }

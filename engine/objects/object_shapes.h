@@ -23,6 +23,10 @@ inline constexpr Angle kLineStep = Angle::degrees(0.045);
 [[nodiscard]] std::vector<glm::dvec3> line_along_geodesics(const std::vector<Geodetic>& places,
                                                            const Ellipsoid& ellipsoid, Angle step);
 
+/// Returns geodetic normals along the geodesics through `places`, in pieces no longer than `step`.
+[[nodiscard]] std::vector<EcefDir> normals_along_geodesics(const std::vector<Geodetic>& places,
+                                                           const Ellipsoid& ellipsoid, Angle step);
+
 /// Returns ECEF positions, metres, along the edges of an area: great circles of the sphere of geodetic latitude and
 /// longitude (geo/great_circle.h), closed, and raised by `lift_m`.
 [[nodiscard]] std::vector<glm::dvec3> outline(const std::vector<Geodetic>& ring, const Ellipsoid& ellipsoid, Angle step,

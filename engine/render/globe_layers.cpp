@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "render/globe_renderer.h"
 
 // The image layers before they are drawn: their programs, the stacks that combine them, and uploads.
@@ -40,7 +42,11 @@ void GlobeRenderer::plan_stacks(const Pass& pass) {
                                       !(layer.height_m > 0.0 && pass.input.lit) && (!night || options_.night_lights));
     if (opaque && fits && stacked + 1 == stack_layers_.size()) ++stacked;
   }
-  patches_->plan(stack_layers_, stacked, stacks_);
+  // Objects on the ground come with the last layer of a patch, unless a layer is drawn by itself after it.
+  const auto alone = std::span(layers).subspan(std::max<std::size_t>(1, stacked));
+  ground_in_stacks_ =
+      opaque && std::ranges::all_of(alone, [&](const LayerFrame& layer) { return is_over_ground(pass, layer); });
+  patches_->plan(stack_layers_, stacked, ground_in_stacks_ ? pass.input.ground : nullptr, stacks_);
 }
 
 // An upper layer shares the vertices of the base layer if the rows of both grids count the same latitude.
@@ -71,6 +77,10 @@ Status GlobeRenderer::upload_layers(const FrameInput& input) {
       return Error{"Globe::render: the driver has no memory for the vertices of the ground; draw a smaller picture"};
     }
     if (shaded) slopes_->upload(*layer.gpu, *input.relief, *layer.tree, *layer.patches, input.frame);
+  }
+  if (input.ground != nullptr) {
+    patches_->upload_ground(*input.ground_gpu, *input.ground, {vertices_of(base, base), *base.tree, true},
+                            *base.patches, input.frame);
   }
   patches_->upload(stacks_, stack_layers_, {vertices_of(base, base), *base.tree, true}, input.frame);
   return Done{};

@@ -80,8 +80,8 @@ Status GlobeRenderer::prepare(const Pass& pass) {
   } else if (!samples) {
     if (Status s = make_once(outline_); !s) return s;
   }
-  if (objects_) {
-    if (Status s = objects_->prepare_drapes(samples); !s) return s;
+  if (pass.input.ground != nullptr && !ground_in_stacks_) {
+    if (Status s = patches_->prepare_ground(*pass.input.ground, *pass.base().patches); !s) return s;
   }
   return pass.input.stereo == Stereo::interlaced ? make_once(interlace_) : Done{};
 }
@@ -144,7 +144,7 @@ void GlobeRenderer::draw_from_above(const Pass& pass) {
     draw_callers(pass, DrawStage::below_ground);
   }
   draw_surface(pass);
-  draw_drapes(pass);
+  draw_ground(pass, over_surface(pass));
   draw_callers(pass, DrawStage::ground);
   draw_sky(pass);
   if (!limb_comes_last(pass)) draw_limb(pass, true);
@@ -159,6 +159,12 @@ void GlobeRenderer::draw_from_below(const Pass& pass) {
   if (has_inner_sphere(pass)) draw_inner_sphere(pass);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::others, 0);
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::chosen, kThroughBit);
+  if (surface_look(pass) != SurfaceFromBelow::opaque) {  // behind the surface, at its depth
+    DrawState behind = picture_state(pass.eye);
+    behind.cull = GL_FRONT;
+    behind.depth->write = false;
+    draw_ground(pass, behind);
+  }
   draw_objects(pass, ObjectPart::underground, ObjectChoice::all, 0);
   if (surface_look(pass) != SurfaceFromBelow::opaque) draw_callers(pass, DrawStage::below_ground);
   draw_surface(pass);
@@ -174,6 +180,7 @@ void GlobeRenderer::draw_naively(const Pass& pass) {
   DrawState state = picture_state(pass.eye);
   state.blend = surface_blend(pass.input.surface);
   draw_base(pass, state);
+  draw_ground(pass, over_surface(pass));
   draw_objects(pass, ObjectPart::above_ground, ObjectChoice::all, 0);
 }
 
@@ -186,19 +193,19 @@ void GlobeRenderer::draw_objects(const Pass& pass, ObjectPart part, ObjectChoice
   pass.counts.draw_calls += objects_->draw(part, frame_, pass.eye.view.viewport, state, choice, hiding_radius_m(pass));
 }
 
-// Before anything else is drawn on the ground, because what lies on the ground is found by the depth of the picture.
-void GlobeRenderer::draw_drapes(const Pass& pass) {
-  if (!objects_ || !objects_->has_drapes()) return;
-  const GroundRange range = pass.input.relief != nullptr ? pass.input.relief->range_m() : GroundRange{};
-  const bool samples = targets_->samples() > 0;
-  if (air_ != nullptr) air_->bind_ground();
-  pass.counts.draw_calls +=
-      objects_->draw_drapes({.viewport = pass.eye.view.viewport,
-                             .at = {pass.eye.left_px, 0, pass.eye.interlaced ? 2 : 1},
-                             .depth = samples ? targets_->depth_samples() : targets_->depth(),
-                             .ground_range_m = {std::min(0.0, range.min_m), std::max(0.0, range.max_m)},
-                             .polar_scale = 1.0 / ellipsoid_.one_minus_e2()},
-                            picture_state(pass.eye));
+DrawState GlobeRenderer::over_surface(const Pass& pass) const {
+  DrawState state = picture_state(pass.eye);
+  state.depth = kSameDepth;
+  return state;
+}
+
+// Before anything else is drawn on the ground. `state` has the depth test.
+void GlobeRenderer::draw_ground(const Pass& pass, DrawState state) const {
+  if (pass.input.ground == nullptr || ground_in_stacks_) return;
+  const LayerFrame& base = pass.base();
+  state.blend = {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE};
+  patches_->draw_ground({pass.input.ground, pass.input.ground_gpu}, *base.gpu, vertices_of(base, base), state,
+                        pass.counts);
 }
 
 // The sky is drawn where there is no surface. It writes no depth, so it does not affect the near and the far plane

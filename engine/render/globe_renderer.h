@@ -59,12 +59,14 @@ struct LayerFrame {
 /// Input of one frame.
 struct FrameInput {
   Viewport size;
-  glm::ivec2 corner_px{0};         ///< lower left corner of the picture in the framebuffer
-  View view;                       ///< view of the eye in a mono picture
-  std::optional<EyePair> eyes;     ///< views of both eyes in stereo; `view` is then unused
-  Stereo stereo = Stereo::off;     ///< way in which the pictures of two eyes are joined
-  std::vector<LayerFrame> layers;  ///< the base layer, which is opaque and has every patch; then the upper layers
-  const Relief* relief = nullptr;  ///< relief of the patches; null: the ellipsoid
+  glm::ivec2 corner_px{0};              ///< lower left corner of the picture in the framebuffer
+  View view;                            ///< view of the eye in a mono picture
+  std::optional<EyePair> eyes;          ///< views of both eyes in stereo; `view` is then unused
+  Stereo stereo = Stereo::off;          ///< way in which the pictures of two eyes are joined
+  std::vector<LayerFrame> layers;       ///< the base layer, which is opaque and has every patch; then the upper layers
+  const Relief* relief = nullptr;       ///< relief of the patches; null: the ellipsoid
+  const GroundFrame* ground = nullptr;  ///< lines and areas on the ground; null: none
+  PatchGround* ground_gpu = nullptr;    ///< the view's; not null if `ground` is not
   SurfaceLook surface;
   std::optional<SkyInput> sky;  ///< none: a black background
   bool lit = true;
@@ -177,7 +179,8 @@ class GlobeRenderer {
   void draw_from_below(const Pass& pass);
   void draw_naively(const Pass& pass);
   void draw_objects(const Pass& pass, ObjectPart part, ObjectChoice choice, GLuint mark);
-  void draw_drapes(const Pass& pass);
+  [[nodiscard]] DrawState over_surface(const Pass& pass) const;
+  void draw_ground(const Pass& pass, DrawState state) const;
   void draw_sky(const Pass& pass);
   void draw_inner_sphere(const Pass& pass);
   void draw_far_side_curtain(const Pass& pass);
@@ -250,6 +253,7 @@ class GlobeRenderer {
   std::unique_ptr<PatchPass> patches_;
   PatchStacks stacks_;
   std::vector<StackLayer> stack_layers_;   ///< the layers of the frame that is drawn
+  bool ground_in_stacks_ = false;          ///< stacks draw what lies on the ground
   std::unique_ptr<SlopeTextures> slopes_;  ///< only with relief
   std::unique_ptr<LimbPass> limb_;
   std::unique_ptr<OutlinePass> outline_;

@@ -177,7 +177,8 @@ void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) c
 void GlobeRenderer::draw_stacks(const Pass& pass, bool first_pass, const DrawState& state) const {
   const LayerFrame& base = pass.base();
   if (light_of(pass.input).relief) slopes_->bind(*base.gpu);
-  patches_->draw_stacks(stacks_, first_pass, stack_layers_, *base.gpu, vertices_of(base, base), state, pass.counts);
+  patches_->draw_stacks(stacks_, first_pass, stack_layers_, *base.gpu, vertices_of(base, base),
+                        {pass.input.ground, pass.input.ground_gpu}, state, pass.counts);
 }
 
 void GlobeRenderer::draw_base(const Pass& pass, const DrawState& state) const {

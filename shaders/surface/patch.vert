@@ -36,6 +36,15 @@ layout(location = 10) in uvec4 patch_window_3;
 #endif
 #endif
 
+// The point of the patch, 0 to 1 along its sides, for the pictures of what lies on it.
+#if defined(ON_GROUND)
+layout(location = 15) in uvec4 patch_ground;
+layout(location = 12) uniform int points_a_side;
+out vec2 ground_point;
+out float object_light;
+flat out uvec4 ground_window;
+#endif
+
 #if defined(SPECIAL_LAYER)
 out float shadow_of_layer;
 #endif
@@ -80,6 +89,8 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
   // Sunlight is red where the Sun is low. What shines by itself keeps its colour.
 #if defined(DAY_AND_NIGHT)
   sun_tint = sqrt(tint);
+  tint = vec3(1.0);
+#elif defined(GROUND_ALONE)
   tint = vec3(1.0);
 #elif defined(SPECIAL_LAYER)
   if (layer_look.x < 0.0) tint = vec3(1.0);
@@ -194,6 +205,12 @@ void main() {
 #endif
 #endif
   row_direction = direction;
+#if defined(ON_GROUND)
+  int point = gl_VertexID % (points_a_side * points_a_side);
+  ground_point = vec2(point % points_a_side, point / points_a_side) / float(points_a_side - 1);
+  object_light = mix(1.0, mix(0.4, 1.0, smoothstep(-0.35, 0.5, dot(normal, sun_ecef.xyz))), sun_ecef.w);
+  ground_window = patch_ground;
+#endif
 #if defined(SPECIAL_LAYER)
   // The shadow that the layer towards the Sun throws on the ground. surface_look.x is then the layer's height in radii,
   // less than 0.

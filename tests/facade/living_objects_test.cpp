@@ -235,7 +235,10 @@ TEST_F(LivingObjects, ALargeSceneIsDrawnOnceItIsCut) {
   EXPECT_EQ(picture().at(80, 60), (Color{20, 200, 20}));
   ObjectScene many;
   for (std::uint64_t k = 0; k < 60; ++k) many.polygons.push_back(box(k + 1, -60.0 + double(k), -2, kRed));
-  for (PolygonObject& area : many.polygons) area.stroke.alpha = 0;
+  for (PolygonObject& area : many.polygons) {
+    area.stroke.alpha = 0;
+    area.heights = HeightMode::relative_to_ground;  // areas on the ground are not cut
+  }
   ASSERT_TRUE(globe_->set_objects(layer, many));
   ASSERT_TRUE(globe_->edit_objects(layer, {.changes = {{.id = ObjectId{60}, .fill = ObjectColor{0, 0, 250}}}}));
   EXPECT_FALSE(globe_->settled());

@@ -229,7 +229,7 @@ TEST_F(ObjectPassTest, MarkerKeepsItsSizeWhateverTheDistance) {
 TEST_F(ObjectPassTest, LineFollowsTheGeodesicAtItsWidth) {
   const GeographicLib::GeodesicExact geodesics(ellipsoid().a_m(), ellipsoid().f());
   const Geodetic from = at(50.0, -60.0), to = at(52.0, 20.0);
-  const ObjectScene scene{.lines = {{.places = {from, to}, .width_px = 5.0F, .color = kRed}}};
+  const ObjectScene scene{.lines = {{.places = {from, to}, .width_px = 5.0F, .color = kRed, .through_surface = true}}};
   for (const DepthMode depth : {DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard}) {
     use(depth, {400, 400});
     const Camera camera = over(60.0, -20.0, 8.0e6);
@@ -258,7 +258,8 @@ TEST_F(ObjectPassTest, LineFollowsTheGeodesicAtItsWidth) {
 }
 
 TEST_F(ObjectPassTest, LineEndsAtItsEnds) {
-  const ObjectScene scene{.lines = {{.places = {at(0.0, -1.0), at(0.0, 1.0)}, .width_px = 3.0F, .color = kRed}}};
+  const ObjectScene scene{
+      .lines = {{.places = {at(0.0, -1.0), at(0.0, 1.0)}, .width_px = 3.0F, .color = kRed, .through_surface = true}}};
   const Camera camera = over(0.0, 0.0, 1.0e6);
   const ObjectPicture picture = draw(scene, camera);
   const double west = project(view(camera), ellipsoid().to_ecef(at(0.0, -1.0))).value().x;
@@ -276,7 +277,8 @@ TEST_F(ObjectPassTest, LineEndsAtItsEnds) {
 
 TEST_F(ObjectPassTest, LineThatPassesBehindTheEyeIsStillStraight) {
   // Level with the ground, looking north along a line that begins far behind the eye.
-  const ObjectScene scene{.lines = {{.places = {at(-1.0, 0.0), at(1.0, 0.0)}, .width_px = 6.0F, .color = kRed}}};
+  const ObjectScene scene{
+      .lines = {{.places = {at(-1.0, 0.0), at(1.0, 0.0)}, .width_px = 6.0F, .color = kRed, .through_surface = true}}};
   const ObjectPicture picture = draw(scene, over(0.0, 0.0, 1000.0, -10.0));
   for (int y = 110; y < 200; ++y) {
     EXPECT_TRUE(picture.shown(99, y) && picture.shown(100, y)) << y;
@@ -366,7 +368,7 @@ TEST_F(ObjectPassTest, AreasAreFilledOverThePoleAndOverTheAntimeridian) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
-    const PolygonObject polygon{.rings = c.rings, .fill = kGreen, .stroke = {0, 0, 0, 0}};
+    const PolygonObject polygon{.rings = c.rings, .fill = kGreen, .stroke = {0, 0, 0, 0}, .through_surface = true};
     use(DepthMode::reversed, {80, 80});
     const std::vector<int> expected = expected_fill(view(c.camera), ellipsoid(), polygon);
     for (const DepthMode depth : {DepthMode::reversed, DepthMode::logarithmic, DepthMode::standard}) {

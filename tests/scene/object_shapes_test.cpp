@@ -180,7 +180,8 @@ TEST(ObjectShapes, AnAreaThatCrossesItselfIsFilledUpToALimit) {
   EXPECT_EQ(large.fault, FillFault::tangled);
   EXPECT_TRUE(large.indices.empty());
   // Areas of one layer share the spare steps, so many such areas do not take longer than one.
-  const ObjectScene scene{.polygons = {star(2001), star(101), equal_rings(1)}};
+  ObjectScene scene{.polygons = {star(2001), star(101), equal_rings(1)}};
+  for (PolygonObject& area : scene.polygons) area.through_surface = true;  // areas on the ground need no triangles
   const auto missing = cut(scene).missing_fills();
   ASSERT_EQ(missing.size(), 2U);
   EXPECT_EQ(missing[1].fault, FillFault::tangled);

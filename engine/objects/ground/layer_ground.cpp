@@ -6,15 +6,21 @@
 
 // The objects of a layer that stand on the ground or lie on it.
 namespace terrella {
-SlotBatch<LineVertex>& LayerObjects::lines_of(bool draped) { return draped ? batches_.draped_lines : batches_.lines; }
 
-bool LayerObjects::has_drapes() const {
-  return batches_.draped_lines.has(ObjectPart::above_ground) || batches_.draped_fills.has(ObjectPart::above_ground);
+void LayerObjects::put_on_ground(KeptOnGround& kept, GroundObject object) {
+  if (kept.place == GroundBatch::kNone) {
+    if (object.shape) kept.place = batches_.ground.add(std::move(object));
+  } else if (object.shape) {
+    batches_.ground.change(kept.place, std::move(object));
+  } else {
+    batches_.ground.change(std::exchange(kept.place, GroundBatch::kNone), {});
+    kept.shape.reset();
+  }
 }
 
 // A line that is cut anew mostly has as many vertices as before.
 void LayerObjects::put(KeptLine& line, std::span<const LineVertex> vertices) {
-  SlotBatch<LineVertex>& lines = lines_of(is_draped(*line.object));
+  SlotBatch<LineVertex>& lines = batches_.lines;
   if (line.slot.count > 0 && line.slot.count == vertices.size()) {
     std::ranges::copy(vertices, lines.change(line.slot).begin());
     return;
@@ -84,8 +90,26 @@ void LayerObjects::follow(PartRef part, const std::function<bool(const Geodetic&
   if (index_) index_part(part);
 }
 
+// Lines and areas at height 0 lie on ground without heights, and stay where they are when heights raise it.
+void LayerObjects::cut_again_on_other_ground() {
+  for (std::uint32_t k = 0; k < lines_.size(); ++k) {
+    KeptLine& line = lines_[k];
+    if (line.removed || !line.asked || lies_on_ground(*line.object, ground_) == line.ground.lies) continue;
+    line.asked = false;
+    ask_for(k, line);
+  }
+  for (std::uint32_t k = 0; k < areas_.size(); ++k) {
+    KeptArea& area = areas_[k];
+    if (area.removed || lies_on_ground(*area.object, ground_) == area.ground.lies) continue;
+    area.asked_fill = area.asked_outline = false;
+    ask_for(k, area);
+  }
+}
+
 void LayerObjects::follow(const Ground& ground, const std::function<bool(const Geodetic&)>& has_changed) {
+  const bool other = ground.has_relief() != ground_.has_relief();
   ground_ = ground;
+  if (other) cut_again_on_other_ground();
   if (!stands_on_ground()) return;
   const auto each = [&](ObjectKind kind, std::size_t count) {
     for (std::uint32_t k = 0; k < count; ++k) follow({kind, k}, has_changed);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "geo/objects.h"
@@ -15,6 +16,20 @@ namespace terrella {
   const double over_m = mode == HeightMode::relative_to_ground ? place.height_m : 0.0;
   place.height_m = ground.height_m(place.lat, place.lon) + over_m;
   return place;
+}
+
+/// True if a line or an area lies on the ground: draped, or at the height of ground without heights.
+[[nodiscard]] inline bool lies_on_ground(const LineObject& line, const Ground& ground) {
+  if (is_draped(line)) return true;
+  return line.heights == HeightMode::absolute && !line.through_surface && !ground.has_relief() &&
+         std::ranges::all_of(line.places, [](const Geodetic& place) { return place.height_m == 0.0; });
+}
+[[nodiscard]] inline bool lies_on_ground(const PolygonObject& area, const Ground& ground) {
+  if (is_draped(area)) return true;
+  return area.heights == HeightMode::absolute && !area.through_surface && !is_extruded(area) && !ground.has_relief() &&
+         std::ranges::all_of(area.rings, [](const auto& ring) {
+           return std::ranges::all_of(ring, [](const Geodetic& place) { return place.height_m == 0.0; });
+         });
 }
 
 /// Returns a place of a line or an area as it is cut. If they lie on the ground, they are cut on the ellipsoid: the

@@ -36,16 +36,11 @@ void FollowingBuffer::put(std::size_t at, const void* data, std::size_t bytes) c
 bool LayerBuffers::follow(LayerObjects& objects) {
   objects.tidy();
   LayerBatches& batches = objects.batches();
-  const auto follow_drape = [](FollowingBuffer& buffer, auto& batch) {
-    auto& bucket = batch.bucket(LayerBatches::kDraped);
-    return buffer.follow(bucket.items, bucket.changed);
-  };
-  bool has_memory =
-      spheres.follow(batches.spheres.groups.items(), batches.spheres.changed) && follow_all(markers, batches.markers) &&
-      follow_all(icons, batches.icons) && icon_atlas.follow(batches.icon_images) && follow_all(lines, batches.lines) &&
-      follow_all(fill_vertices, batches.fill_vertices) && follow_all(fill_indices, batches.fill_indices) &&
-      follow_all(solids, batches.solids) && follow_drape(draped_lines, batches.draped_lines) &&
-      follow_drape(draped_fills, batches.draped_fills);
+  bool has_memory = spheres.follow(batches.spheres.groups.items(), batches.spheres.changed) &&
+                    follow_all(markers, batches.markers) && follow_all(icons, batches.icons) &&
+                    icon_atlas.follow(batches.icon_images) && follow_all(lines, batches.lines) &&
+                    follow_all(fill_vertices, batches.fill_vertices) &&
+                    follow_all(fill_indices, batches.fill_indices) && follow_all(solids, batches.solids);
   stands.resize(batches.models.size());
   for (std::size_t k = 0; k < stands.size(); ++k) {
     has_memory = has_memory && follow_all(stands[k], batches.models[k].stands);

@@ -42,7 +42,6 @@ struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
   Buckets markers, icons, lines, fill_vertices, fill_indices, solids;
-  FollowingBuffer draped_lines, draped_fills;
   std::vector<Buckets> stands;  ///< per model of the layer
   IconAtlas icon_atlas;
 

@@ -109,18 +109,6 @@ void ObjectPass::plan_fills() {
   }
 }
 
-bool ObjectPass::has_drapes() const {
-  return std::ranges::any_of(layers_, [](const DrawnLayer& layer) { return layer.objects->has_drapes(); });
-}
-
-Status ObjectPass::prepare_drapes(bool samples) {
-  if (!has_drapes() || (drapes_ && drapes_->has_samples() == samples)) return Done{};
-  auto made = DrapePass::create(depth_, samples);
-  if (!made) return made.error();
-  drapes_ = std::move(*made);
-  return Done{};
-}
-
 bool ObjectPass::has(ObjectPart part) const {
   return std::ranges::any_of(layers_, [part](const DrawnLayer& layer) { return layer.objects->has(part); });
 }

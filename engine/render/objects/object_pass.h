@@ -10,7 +10,6 @@
 #include "objects/object_batches.h"
 #include "render/gl/frame_block.h"
 #include "render/gl/gl_handle.h"
-#include "render/objects/drape_pass.h"
 #include "render/objects/icon_pass.h"
 #include "render/objects/label_pass.h"
 #include "render/objects/layer_buffers.h"
@@ -37,14 +36,6 @@ class ObjectPass {
   /// False if the last upload() left out a layer.
   [[nodiscard]] bool has_memory() const { return layers_.size() == given_.size(); }
   [[nodiscard]] bool has(ObjectPart part) const;
-
-  /// Lines and areas that lie on the ground are a pass of their own. prepare_drapes() makes its programs, for pictures
-  /// with or without samples.
-  [[nodiscard]] bool has_drapes() const;
-  Status prepare_drapes(bool samples);
-  int draw_drapes(const GroundPicture& picture, const DrawState& state) const {
-    return drapes_->draw(layers_, picture, state);
-  }
 
   /// Sets the font of labels, the bytes of a font file. Without a font, no labels are drawn.
   void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
@@ -82,7 +73,6 @@ class ObjectPass {
   gl::Program fill_, line_, marker_;
   gl::VertexArray fill_array_, line_array_, marker_array_;
   std::unique_ptr<SpherePass> spheres_;
-  std::unique_ptr<DrapePass> drapes_;
   DepthMode depth_ = DepthMode::reversed;
   std::vector<std::byte> font_;
   std::unique_ptr<LabelPass> labels_;

@@ -11,6 +11,7 @@ constexpr int kFirstCapacity = 512;
 
 PatchBuffers::PatchBuffers(int segments, const TileGrid* heights)
     : heights_(heights != nullptr ? std::optional(*heights) : std::nullopt),
+      segments_(segments),
       vertices_per_patch_((segments + 1) * (segments + 1)),
       indices_(patch_indices(segments)),
       index_buffer_(gl::make_buffer()) {

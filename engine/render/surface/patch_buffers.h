@@ -34,6 +34,7 @@ class PatchBuffers {
   /// False if the driver has no memory for the patches of a frame, which then cannot be drawn.
   [[nodiscard]] bool has_memory(std::uint64_t frame) const { return refused_in_ != frame; }
   [[nodiscard]] int vertices_per_patch() const { return vertices_per_patch_; }
+  [[nodiscard]] int segments() const { return segments_; }
   [[nodiscard]] const PatchIndices& indices() const { return indices_; }
   [[nodiscard]] GLuint vertex_buffer() const { return vertices_.name(); }
   /// Two floats per vertex: height_offsets_deg(). Only with relief.
@@ -59,7 +60,7 @@ class PatchBuffers {
   void fill(const PatchTree& tree, const PatchNode& node, int place);
 
   std::optional<TileGrid> heights_;
-  int vertices_per_patch_;
+  int segments_, vertices_per_patch_;
   PatchIndices indices_;
   gl::Buffer vertices_, height_offsets_;
   std::vector<glm::vec3> points_;

@@ -55,6 +55,8 @@ void PatchPass::set_relief(bool has_relief) {
 void PatchPass::set_up_vertex_arrays() {
   vertex_array_ = make_vertex_array();
   stack_array_ = make_stack_array();
+  ground_array_ = make_vertex_array();
+  add_ground_attribute(ground_array_);
 }
 
 gl::VertexArray PatchPass::make_vertex_array() const {

@@ -16,7 +16,9 @@
 #include "render/gl/gl_handle.h"
 #include "render/gl/shader_functions.h"
 #include "render/sky/air_textures.h"
+#include "render/surface/ground_textures.h"
 #include "render/surface/patch_buffers.h"
+#include "render/surface/patch_ground.h"
 #include "render/surface/patch_layer.h"
 #include "render/surface/patch_stacks.h"
 #include "render/surface/tile_textures.h"
@@ -101,20 +103,29 @@ class PatchPass {
 
   /// Decides which passes draw several layers at once. `layers`: all of a frame, the lowest first. The first `stacked`
   /// share the rows of the base layer's grid and lie on the ground; the others are drawn one by one.
-  void plan(std::span<const StackLayer> layers, std::size_t stacked, PatchStacks& out) const;
+  /// `ground`: what lies on the ground is drawn with the layers; null: nothing, or by draw_ground().
+  void plan(std::span<const StackLayer> layers, std::size_t stacked, const GroundFrame* ground, PatchStacks& out) const;
   /// Builds the programs of stacks in the scene, each once.
   Status prepare(const PatchStacks& stacks);
   /// Uploads the draws of planned stacks.
   void upload(PatchStacks& stacks, std::span<const StackLayer> layers, const Vertices& base, std::uint64_t frame) const;
   /// Draws the first pass of the stacks, or the later ones. `base`: the base layer, after its upload.
   void draw_stacks(const PatchStacks& stacks, bool first_pass, std::span<const StackLayer> layers,
-                   const PatchLayer& base, const PatchBuffers& vertices, const DrawState& state,
-                   FrameCounts& counts) const;
+                   const PatchLayer& base, const PatchBuffers& vertices, const GroundDraw& ground,
+                   const DrawState& state, FrameCounts& counts) const;
   /// The limb of a layer that lies on the ground is raised with the ground (PatchScene::limb).
   enum class Limb { raised, flat };
   /// Draws a layer, program by program. Needs prepare().
   void draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
             const DrawState& state, FrameCounts& counts, Limb limb = Limb::raised) const;
+  /// Builds the programs that draw what lies on the ground, each once.
+  Status prepare_ground(const GroundFrame& ground, const std::vector<SelectedPatch>& patches);
+  /// Uploads the cells and the draws of what lies on the ground.
+  void upload_ground(PatchGround& out, const GroundFrame& ground, const Vertices& vertices,
+                     const std::vector<SelectedPatch>& patches, std::uint64_t frame) const;
+  /// Draws what lies on the ground, over the depth of the base layer.
+  void draw_ground(const GroundDraw& ground, const PatchLayer& base, const PatchBuffers& vertices,
+                   const DrawState& state, FrameCounts& counts) const;
   /// Depth only, with the same bits as those of draw(); or with that depth opaque black, or the light of the air.
   enum class Whole { depth, black, air };
   /// Makes the programs of draw_whole() for the scene, once. prepare() does so for `black`.
@@ -147,12 +158,22 @@ class PatchPass {
   struct Extras {
     bool city_lights = false, pole = false, limb = false;
     int stack = 0;  ///< layers of a stack; 0: none
+    bool ground_alone = false;
+    unsigned ground = 0;  ///< GroundFrame::windows, z: draws what lies on the ground; 0: nothing
   };
   Status build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, bool numbers,
                const Extras& extras) const;
   [[nodiscard]] gl::VertexArray make_vertex_array() const;
   void set_up_vertex_arrays();
   [[nodiscard]] gl::VertexArray make_stack_array() const;
+  static void add_ground_attribute(const gl::VertexArray& array);
+  void bind_ground(const gl::VertexArray& array, const GroundDraw& ground) const;
+  static void set_points(GLuint program, const PatchBuffers& vertices);
+  /// Unit of the cells of what lies on the ground: relief has taken one, and leaves another.
+  [[nodiscard]] GLuint ground_cells_unit() const { return has_relief_ ? 13 : 9; }
+  [[nodiscard]] std::uint64_t ground_place(std::uint32_t look) const { return stack_place(look) | relief_bit(); }
+  /// The bit of a program's place that says where the cells of the ground are (ground_cells_unit()).
+  [[nodiscard]] std::uint64_t relief_bit() const { return has_relief_ ? 1U << 16U : 0U; }
   void set_up_samplers();
   void bind_vertices(const gl::VertexArray& vertex_array, const PatchLayer& layer, const PatchBuffers& vertices) const;
   /// The command that draws a patch with the attributes of an instance.
@@ -164,13 +185,14 @@ class PatchPass {
   /// Layers that show on a patch, the lowest first, each with the number of the patch among its own.
   using Shown = std::vector<std::pair<std::uint16_t, std::uint32_t>>;
   void add_groups(std::span<const StackLayer> layers, std::uint32_t patch, const Shown& shown, bool whole,
-                  PatchStacks& out) const;
+                  unsigned ground, PatchStacks& out) const;
   void bind_stack(const PatchStacks::Group& group, std::span<const StackLayer> layers, GLuint program) const;
   Status make_stack_program(gl::Program& place, const StackProgram& program);
   Status choose_functions();
   /// Place in stack_programs_ of a StackProgram::key() in the present air and light.
   [[nodiscard]] std::uint64_t stack_place(std::uint32_t key) const {
-    return std::uint64_t{key} << 32U | which() << 8U | static_cast<std::uint64_t>(scene_.light.index());
+    return std::uint64_t{key} << 32U | (key >> 29U != 0 ? relief_bit() : 0U) | which() << 8U |
+           static_cast<std::uint64_t>(scene_.light.index());
   }
   [[nodiscard]] gl::Program& whole_program(Whole what, bool limb);
   static void draw_commands(int first, int last, FrameCounts& counts);
@@ -196,7 +218,8 @@ class PatchPass {
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
   gl::Program depth_programs_[2], flat_programs_[2];  ///< for whole patches, and for the limb
   std::map<std::uint64_t, gl::Program> stack_programs_;
-  gl::VertexArray vertex_array_, stack_array_;
+  std::map<std::uint64_t, gl::Program> ground_programs_;  ///< by ground_place() of PatchGround::Batch::look
+  gl::VertexArray vertex_array_, stack_array_, ground_array_;
   gl::Sampler bilinear_, precise_, mipmapped_;
 };
 

@@ -108,6 +108,7 @@ std::string stack_main(const StackProgram& program) {
                                    : "over(sum, found_" + own + ", stack_look[" + own + "], " +
                                          (program.slots[k].special ? "true" : "false") + ");\n";
   }
+  if (program.ground != 0) text += "  sum = under_objects(sum);\n";
   return text + "  color_srgb = sum;\n  WRITE_DEPTH(1.0);\n}\n";
 }
 }  // namespace
@@ -150,18 +151,30 @@ Status PatchPass::prepare_whole(Whole what) {
 Status PatchPass::build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, bool numbers,
                         const Extras& extras) const {
   const PatchLight light = light_of(role, numbers);
-  return build_into(
-      place,
-      {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
-       {GL_FRAGMENT_SHADER, std::move(fragment)}},
-      {depth_define(options_.depth), light.relief ? "RELIEF" : "LEVEL_LIGHT",
-       options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT", extras.pole ? "AT_POLE" : "OFF_POLE",
-       extras.city_lights ? "CITY_LIGHTS" : "NO_LAMPS", extras.limb ? "AT_LIMB" : "OFF_LIMB",
-       options_.regolith ? "REGOLITH" : "NO_DUST", light.glint ? "GLINT" : "NO_GLINT",
-       light.bicubic ? "BICUBIC" : "BILINEAR", scene_.air != nullptr ? "AIR" : "NO_AIR",
-       which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
-       functions_define(options_.functions.value_or(ShaderFunctions::driver)), kRoleDefines[static_cast<int>(role)],
-       numbers ? "NUMBERS" : "PICTURES", kStackDefines[extras.stack]});
+  return build_into(place,
+                    {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
+                     {GL_FRAGMENT_SHADER, std::move(fragment)}},
+                    {depth_define(options_.depth),
+                     light.relief ? "RELIEF" : "LEVEL_LIGHT",
+                     options_.night_lights ? "DAY_AND_NIGHT" : "DAY_LIGHT",
+                     extras.pole ? "AT_POLE" : "OFF_POLE",
+                     extras.city_lights ? "CITY_LIGHTS" : "NO_LAMPS",
+                     extras.limb ? "AT_LIMB" : "OFF_LIMB",
+                     options_.regolith ? "REGOLITH" : "NO_DUST",
+                     light.glint ? "GLINT" : "NO_GLINT",
+                     light.bicubic ? "BICUBIC" : "BILINEAR",
+                     scene_.air != nullptr ? "AIR" : "NO_AIR",
+                     which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
+                     functions_define(options_.functions.value_or(ShaderFunctions::driver)),
+                     kRoleDefines[static_cast<int>(role)],
+                     numbers ? "NUMBERS" : "PICTURES",
+                     kStackDefines[extras.stack],
+                     extras.ground != 0 ? "ON_GROUND" : "OFF_GROUND",
+                     (extras.ground & 1U) != 0 ? "AREAS" : "NO_AREAS",
+                     (extras.ground & 2U) != 0 ? "LINES" : "NO_LINES",
+                     (extras.ground & 4U) != 0 ? "SLANTED" : "LEVEL",
+                     extras.ground_alone ? "GROUND_ALONE" : "GROUND_BELOW",
+                     has_relief_ ? "GROUND_CELLS 13" : "GROUND_CELLS 9"});
 }
 
 Status PatchPass::prepare(const PatchStacks& stacks) {
@@ -179,10 +192,12 @@ Status PatchPass::make_stack_program(gl::Program& place, const StackProgram& pro
   Extras extras{.city_lights = program.night,
                 .pole = std::ranges::any_of(slots, [](const auto& slot) { return is_polar(slot.look); }),
                 .limb = slots[0].look >= PatchLayer::limb,
-                .stack = program.count};
+                .stack = program.count,
+                .ground = program.ground};
   if (Status chosen = extras.pole ? choose_functions() : Done{}; !chosen) return chosen;
   std::vector<std::string_view> files = {"frame.glsl",        "functions.glsl",    "air.glsl",
                                          "patch_relief.glsl", "patch_common.glsl", "patch_stack.glsl"};
+  if (program.ground != 0) files.emplace_back("patch_ground.glsl");
   std::vector<std::string> texts;
   texts.reserve(PatchStacks::kMost + 1);
   for (std::size_t k = 0; k < slots.size(); ++k) {

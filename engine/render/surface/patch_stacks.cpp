@@ -38,11 +38,14 @@ std::uint32_t StackProgram::key() const {
     const std::uint32_t slot = slots[k].look | (slots[k].numbers ? 16U : 0U) | (slots[k].special ? 32U : 0U);
     bits |= slot << (5U + 6U * k);
   }
-  return bits;
+  return bits | ground << 29U;
 }
 
 StackProgram StackProgram::of_key(std::uint32_t key) {
-  StackProgram program{.base = (key & 1U) != 0, .night = (key & 2U) != 0, .count = static_cast<int>(key >> 2U & 7U)};
+  StackProgram program{.base = (key & 1U) != 0,
+                       .night = (key & 2U) != 0,
+                       .ground = key >> 29U,
+                       .count = static_cast<int>(key >> 2U & 7U)};
   for (std::size_t k = 0; k < program.slots.size(); ++k) {
     const std::uint32_t slot = key >> (5U + 6U * k);
     program.slots[k] = {static_cast<std::uint8_t>(slot & 15U), (slot & 16U) != 0, (slot & 32U) != 0};
@@ -50,10 +53,11 @@ StackProgram StackProgram::of_key(std::uint32_t key) {
   return program;
 }
 
-void PatchPass::plan(std::span<const StackLayer> layers, std::size_t stacked, PatchStacks& out) const {
+void PatchPass::plan(std::span<const StackLayer> layers, std::size_t stacked, const GroundFrame* ground,
+                     PatchStacks& out) const {
   out.groups.clear();
   out.own.assign(layers.size(), {});
-  if (layers.size() < 2) return;
+  if (layers.size() < 2 && ground == nullptr) return;
   std::vector<Shown> shown(layers.front().patches->size());
   std::unordered_map<PatchId, std::uint32_t, PatchIdHash> place;
   for (std::uint32_t k = 0; k < shown.size(); ++k) {
@@ -78,18 +82,19 @@ void PatchPass::plan(std::span<const StackLayer> layers, std::size_t stacked, Pa
     }
   }
   for (std::uint32_t k = 0; k < shown.size(); ++k) {
-    if (shown[k].size() < 2 && shown[k].front().first == 0) continue;
+    const unsigned look = ground != nullptr ? ground->windows[k].z : 0U;
+    if (look == 0 && shown[k].size() < 2 && shown[k].front().first == 0) continue;
     out.own[0][k] = false;
     for (const auto& [layer, patch] : shown[k]) out.own[layer][patch] = false;
-    add_groups(layers, k, shown[k], true, out);
-    if (is_on_limb((*layers.front().patches)[k])) add_groups(layers, k, shown[k], false, out);
+    add_groups(layers, k, shown[k], true, look, out);
+    if (is_on_limb((*layers.front().patches)[k])) add_groups(layers, k, shown[k], false, look, out);
   }
   std::ranges::sort(out.groups, {},
                     [](const PatchStacks::Group& g) { return std::tuple_cat(g.batch(), std::tie(g.patch)); });
 }
 
 void PatchPass::add_groups(std::span<const StackLayer> layers, std::uint32_t patch, const Shown& shown, bool whole,
-                           PatchStacks& out) const {
+                           unsigned ground, PatchStacks& out) const {
   const auto most = static_cast<std::size_t>(has_relief_ ? PatchStacks::kMostWithRelief : PatchStacks::kMost);
   const bool night = is_dark((*layers.front().patches)[patch].body());
   for (std::size_t from = 0; from < shown.size(); from += most) {
@@ -105,6 +110,7 @@ void PatchPass::add_groups(std::span<const StackLayer> layers, std::uint32_t pat
       const int variant = whole ? variant_for(own) : limb_variant_for(own);
       program.slots[k] = {static_cast<std::uint8_t>(variant / 2), l.numbers != nullptr, l.special};
     }
+    if (from + count == shown.size()) program.ground = ground;
     group.program = program.key();
     out.groups.push_back(group);
   }
@@ -159,6 +165,7 @@ gl::VertexArray PatchPass::make_stack_array() const {
   glVertexArrayBindingDivisor(array, kWindowsBinding, 1);
   // Slopes have the attributes 9 and 10.
   constexpr std::array<std::array<GLuint, 2>, PatchStacks::kMost> kPlaces{{{4, 7}, {11, 12}, {13, 14}, {9, 10}}};
+  add_ground_attribute(made);
   const int count = has_relief_ ? PatchStacks::kMostWithRelief : PatchStacks::kMost;
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const std::size_t at = k * sizeof(StackWindow);
@@ -187,13 +194,14 @@ void PatchPass::bind_stack(const PatchStacks::Group& group, std::span<const Stac
 }
 
 void PatchPass::draw_stacks(const PatchStacks& stacks, bool first_pass, std::span<const StackLayer> layers,
-                            const PatchLayer& base, const PatchBuffers& vertices, const DrawState& state,
-                            FrameCounts& counts) const {
+                            const PatchLayer& base, const PatchBuffers& vertices, const GroundDraw& ground,
+                            const DrawState& state, FrameCounts& counts) const {
   if (stacks.batches.empty()) return;
   if (scene_.air != nullptr) scene_.air->bind_ground();
   glBindTextureUnit(1, stacks.cells_texture.name());
   glBindSampler(1, 0);
   bind_vertices(stack_array_, base, vertices);
+  if (ground.frame != nullptr) bind_ground(stack_array_, ground);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, stacks.commands.name());
   for (const PatchStacks::Batch& batch : stacks.batches) {
     if ((batch.first.pass == 0) != first_pass) continue;
@@ -204,6 +212,7 @@ void PatchPass::draw_stacks(const PatchStacks& stacks, bool first_pass, std::spa
                                batch.first.whole ? vertices.index_buffer() : stacks.limb_indices.name());
     const GLuint program = stack_programs_.at(stack_place(batch.first.program)).name();
     bind_stack(batch.first, layers, program);
+    if (batch.first.program >> 29U != 0) set_points(program, vertices);
     apply(state.with(program));
     draw_commands(batch.from, batch.to, counts);
   }

@@ -27,8 +27,9 @@ struct StackLayer {
   bool hides = false;    ///< hides all layers under it wherever it has tiles
 };
 
-/// The patches of a frame on which one pass draws several image layers. A layer without tiles on a patch, or under a
-/// layer that hides it there, takes no part. PatchPass plans, uploads and draws. thread: main
+/// The patches of a frame on which one pass draws several image layers, or a layer and what lies on the ground. A layer
+/// without tiles on a patch, or under a layer that hides it there, takes no part. PatchPass plans, uploads and draws.
+/// thread: main
 struct PatchStacks {
   /// Most layers of one pass: their tiles and colours have 8 of OpenGL ES 3.0's 16 texture units, and their windows the
   /// vertex attributes that are left. Relief leaves room for one less.
@@ -71,8 +72,9 @@ struct StackProgram {
   };
   bool base =
       true;  ///< the lowest layer is the base layer; false: an upper layer that hides all below, or a later pass
-  bool night = false;  ///< with city lights
-  int count = 1;       ///< [1, PatchStacks::kMost]
+  bool night = false;   ///< with city lights
+  unsigned ground = 0;  ///< objects on the ground are drawn too: GroundFrame::windows, z
+  int count = 1;        ///< [1, PatchStacks::kMost]
   std::array<Slot, PatchStacks::kMost> slots{};
   [[nodiscard]] std::uint32_t key() const;
   [[nodiscard]] static StackProgram of_key(std::uint32_t key);

@@ -89,11 +89,19 @@ class Selector {
 
   [[nodiscard]] bool needs_split(const PatchNode& node, const PatchSight& sight, const SelectedPatch& patch) {
     if (node.id.level >= kMaxPatchLevel) return false;
-    return first_.needs_split(node, sight, patch) || follows_ground_badly(node, sight, patch) ||
-           std::ranges::any_of(further_, [&](const ImageryFit& fit) {
+    return is_too_long(node, sight) || first_.needs_split(node, sight, patch) ||
+           follows_ground_badly(node, sight, patch) || std::ranges::any_of(further_, [&](const ImageryFit& fit) {
              const PatchNode* own = fit.node_of(node, sight);
              return own != nullptr && fit.needs_split(node, sight, fit.choose_level(*own, sight));
            });
+  }
+
+  // An eye among the heights of relief may be in the sphere of a patch that is far away.
+  [[nodiscard]] bool is_too_long(const PatchNode& node, const PatchSight& sight) const {
+    const double radius_m = node.relief.flat.radius_m;
+    const double least_m = sight.distance_m > 1.5 * radius_m ? 0.2 * sight.distance_m : options_.clearance_m;
+    const double pixel_m = std::max(sight.nearest_m, least_m) * meter_.radians_per_pixel();
+    return radius_m * std::numbers::sqrt2 > options_.most_patch_px * pixel_m;
   }
 
   // Heights move points along the normal: seen from above they move less on the screen. Without a mesh the error is

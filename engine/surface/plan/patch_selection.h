@@ -27,9 +27,11 @@ struct PatchSelectionOptions {
   double max_footprint_texels = kPlainFootprint_texels;  ///< longest pixel outside pole bands
   /// A pixel that the slant makes n times as long as wide asks for texels of its width times n to this power.
   double slant_power = 0.5;
-  bool columns_beside = false;  ///< as CoverInput has it, for the lowest layer
-  int max_window = 8;           ///< a patch whose window has more cells a side is split
-  int max_polar_columns = 32;   ///< a patch that touches a pole takes a coarser level over this many columns
+  bool columns_beside = false;                                     ///< as CoverInput has it, for the lowest layer
+  double most_patch_px = std::numeric_limits<double>::infinity();  ///< a patch with a longer side is split
+  double clearance_m = 0.0;    ///< least distance of the ground from the eye, for most_patch_px
+  int max_window = 8;          ///< a patch whose window has more cells a side is split
+  int max_polar_columns = 32;  ///< a patch that touches a pole takes a coarser level over this many columns
   HorizonCulling horizon_culling = HorizonCulling::automatic;
   double inner_sphere_m = 0.0;         ///< radius of the sphere that hides the far side from an eye below; 0: none
   int max_tile_level = kMaxTileLevel;  ///< no finer tiles than these, whatever the grid has

@@ -1,0 +1,94 @@
+#include "globe/ground_painter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <utility>
+
+#include "tiles/late_workers.h"
+
+namespace terrella {
+namespace {
+
+constexpr unsigned kMostPainters = 8;
+
+}  // namespace
+
+struct GroundPainter::Shared {
+  std::shared_ptr<ArrivalBell> bell;
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::condition_variable asked;
+  // Guarded by the mutex.
+  std::deque<GroundJob> waiting;
+  std::unordered_set<PatchId, PatchIdHash> painting;
+  std::vector<PaintedGround> done;
+};
+
+GroundPainter::GroundPainter(std::shared_ptr<ArrivalBell> bell) : shared_(std::make_shared<Shared>()) {
+  shared_->bell = std::move(bell);
+}
+
+GroundPainter::~GroundPainter() {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->stop = true;
+  }
+  shared_->asked.notify_all();
+  for (std::future<void>& worker : workers_) end_late(std::move(worker));
+}
+
+void GroundPainter::work(const std::shared_ptr<Shared>& shared) {
+  std::unique_lock lock(shared->mutex);
+  for (;;) {
+    shared->asked.wait(lock, [&] { return shared->stop || !shared->waiting.empty(); });
+    if (shared->stop) return;
+    const GroundJob job = std::move(shared->waiting.front());
+    shared->waiting.pop_front();
+    shared->painting.insert(job.id);
+    lock.unlock();
+    PaintedGround done{job.id, job.stretch, job.revision,
+                       paint_ground(square_of(job.id), job.layers, job.stretch, shared->stop)};
+    lock.lock();
+    if (shared->stop) return;
+    shared->done.push_back(std::move(done));
+    lock.unlock();
+    shared->bell->ring();
+    lock.lock();
+  }
+}
+
+void GroundPainter::ask(std::deque<GroundJob> jobs) {
+  if (workers_.empty()) {
+    if (jobs.empty()) return;
+    const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, kMostPainters);
+    for (unsigned k = 0; k < count; ++k) {
+      workers_.push_back(std::async(std::launch::async, [shared = shared_] { work(shared); }));
+    }
+  }
+  {
+    const std::lock_guard lock(shared_->mutex);
+    std::erase_if(jobs, [this](const GroundJob& job) { return shared_->painting.contains(job.id); });
+    shared_->waiting = std::move(jobs);
+  }
+  shared_->asked.notify_all();
+}
+
+bool GroundPainter::is_painting(const PatchId& id) const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->painting.contains(id);
+}
+
+bool GroundPainter::has_news() const {
+  const std::lock_guard lock(shared_->mutex);
+  return !shared_->done.empty();
+}
+
+std::vector<PaintedGround> GroundPainter::take() {
+  const std::lock_guard lock(shared_->mutex);
+  std::vector<PaintedGround> done = std::exchange(shared_->done, {});
+  for (const PaintedGround& one : done) shared_->painting.erase(one.id);
+  return done;
+}
+
+}  // namespace terrella

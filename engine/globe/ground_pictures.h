@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "geo/camera.h"
+#include "globe/ground_painter.h"
+#include "render/objects/layer_buffers.h"
+#include "render/surface/ground_textures.h"
+#include "render/surface/patch_ground.h"
+#include "surface/selected_patch.h"
+
+namespace terrella {
+
+/// Lines and areas on the ground in one view. thread: main
+struct ViewGround {
+  struct Want {
+    PatchId id;
+    double stretch = 1.0;
+    bool urgent = false;  ///< nothing is shown in its place
+  };
+  GroundFrame frame;
+  PatchGround gpu;
+  std::vector<Want> wants;  ///< pictures that the last frame needs and that are not there or out of date
+};
+
+/// A view's patches, for GroundPictures::plan().
+struct GroundView {
+  const View& view;
+  const PatchTree& tree;
+  const std::vector<SelectedPatch>& patches;
+  bool has_relief = false;
+  double clearance_m = 0.0;  ///< least distance of the ground from the eye
+  std::uint64_t frame = 0;
+};
+
+/// The pictures of what lies on the ground: those that views need, at about a texel a pixel. Workers paint them. Until
+/// a picture is there, its earlier state is shown, or finer or coarser pictures of the same ground. Pictures beyond the
+/// budget are evicted, the one that was needed longest ago first. thread: main (of the context)
+class GroundPictures {
+ public:
+  /// Longer patches than this would need too many pictures.
+  static constexpr double kMostPatch_px = 32.0 * GroundPicture::kInner_px;
+
+  GroundPictures(std::size_t budget_bytes, std::shared_ptr<ArrivalBell> bell)
+      : textures_(budget_bytes), painter_(std::move(bell)) {}
+
+  void set_budget(std::size_t bytes) { textures_.set_budget(bytes); }
+  /// Takes the layers that are drawn, the lowest first, and their changes. Returns true if anything has changed.
+  bool follow(const std::vector<DrawnLayer>& layers);
+  /// True if nothing lies on the ground.
+  [[nodiscard]] bool empty() const { return layers_.empty(); }
+  /// Uploads the pictures that workers have painted. Returns their number.
+  std::size_t take_painted(std::uint64_t frame);
+  [[nodiscard]] bool has_news() const { return painter_.has_news(); }
+  /// Decides what a frame of a view shows.
+  void plan(const GroundView& view, ViewGround& out);
+  /// Lets workers paint what views want.
+  void ask(const std::vector<const ViewGround*>& views);
+  [[nodiscard]] std::size_t bytes() const { return textures_.bytes(); }
+
+ private:
+  struct Entry {
+    GroundSlots slots;
+    bool made = false;
+    float reach_px = 0.0F;
+    double stretch = 0.0;
+    std::uint64_t revision = 0, changed = 0, needed = 0;  ///< content; last change under it; last frame
+    [[nodiscard]] bool is_stale() const { return changed > revision; }
+  };
+  using Boxes = std::array<FaceBox, kCubeFaces>;
+  struct Layer {
+    std::uint64_t serial = 0;
+    Boxes boxes;  ///< around all its objects
+    const GroundBatch* batch = nullptr;
+  };
+  class Planner;
+
+  void mark(CubeFace face, const FaceBox& box);
+  void mark(const Boxes& boxes);
+  [[nodiscard]] bool meets(const PatchId& id);
+  [[nodiscard]] GroundJob job(const ViewGround::Want& want) const;
+  bool evict(std::uint64_t frame);
+
+  GroundTextures textures_;
+  GroundPainter painter_;
+  std::vector<Layer> layers_;
+  std::unordered_map<PatchId, Entry, PatchIdHash> entries_;
+  std::unordered_map<PatchId, bool, PatchIdHash> meets_;  ///< answers since the last change
+  std::uint64_t revision_ = 1;
+};
+
+}  // namespace terrella

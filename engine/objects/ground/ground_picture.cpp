@@ -1,0 +1,235 @@
+#include "objects/ground/ground_picture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "objects/ground/ground_fills.h"
+#include "objects/ground/ground_lines.h"
+
+namespace terrella {
+namespace {
+
+/// Points of a line closer than this to the last one are left out.
+constexpr double kFinest_px = 0.25;
+/// Nearer to an end of a piece, the direction to it says nothing.
+constexpr float kNearEnd_px = 0.35F;
+
+std::uint32_t packed(const ObjectColor& c) {
+  return std::uint32_t{c.red} | std::uint32_t{c.green} << 8U | std::uint32_t{c.blue} << 16U |
+         std::uint32_t{c.alpha} << 24U;
+}
+
+std::uint32_t premultiplied(const ObjectColor& c) {
+  const auto part = [&](std::uint8_t v) { return static_cast<std::uint8_t>((v * c.alpha + 127) / 255); };
+  return packed({part(c.red), part(c.green), part(c.blue), c.alpha});
+}
+
+/// A premultiplied colour over another.
+std::uint32_t over(std::uint32_t color, std::uint32_t below) {
+  const std::uint32_t left = 255 - (color >> 24U);
+  std::uint32_t sum = 0;
+  for (unsigned at = 0; at < 32; at += 8) {
+    sum |= std::min(255U, (color >> at & 255U) + ((below >> at & 255U) * left + 127) / 255) << at;
+  }
+  return sum;
+}
+
+/// Calls use(part, object) for the drawn parts of objects in a box.
+template <class Use>
+void each_part(std::span<const GroundChunks> layers, CubeFace face, const FaceBox& box, const std::atomic<bool>& stop,
+               Use use) {
+  for (const GroundChunks& chunks : layers) {
+    for (const auto& chunk : chunks) {
+      if (stop) return;
+      for (const GroundObject& object : chunk->objects) {
+        if (!object.shape) continue;
+        for (const GroundPart& part : object.shape->parts) {
+          if (part.face == face && part.box.meets(box)) use(part, object);
+        }
+      }
+    }
+  }
+}
+
+bool has_line(const GroundObject& object) { return object.line.alpha > 0 && object.width_px > 0.0F; }
+
+void add_mip(std::vector<std::uint32_t>& all, std::size_t from, int side) {
+  for (int y = 0; y < side; y += 2) {
+    for (int x = 0; x < side; x += 2) {
+      const std::size_t at = from + static_cast<std::size_t>(y * side + x);
+      std::uint32_t mean = 0;
+      for (unsigned k = 0; k < 32; k += 8) {
+        const std::uint32_t sum = (all[at] >> k & 255U) + (all[at + 1] >> k & 255U) +
+                                  (all[at + static_cast<std::size_t>(side)] >> k & 255U) +
+                                  (all[at + static_cast<std::size_t>(side) + 1] >> k & 255U);
+        mean |= (sum + 2) / 4 << k;
+      }
+      all.push_back(mean);
+    }
+  }
+}
+
+}  // namespace
+
+// Each line of toggles becomes the samples east of an odd number of edges.
+void GroundFills::blend(ObjectColor color) {
+  if (samples_.empty()) samples_.assign(std::size_t{kAcross} * kAcross, 0);
+  const std::uint32_t ink = premultiplied(color);
+  for (int line = low_; line <= high_; ++line) {
+    std::uint64_t carry = 0;
+    std::uint32_t* row = samples_.data() + static_cast<std::size_t>(line) * kAcross;
+    for (std::uint64_t& word : toggles_[static_cast<std::size_t>(line)]) {
+      std::uint64_t in = std::exchange(word, 0);
+      for (int shift = 1; shift < 64; shift *= 2) in ^= in << shift;
+      in ^= carry;
+      carry = in >> 63U != 0 ? ~std::uint64_t{0} : 0;
+      for (std::uint64_t left = in; left != 0;) {
+        const int first = std::countr_zero(left), count = std::countr_one(left >> first);
+        for (std::uint32_t* at = row + first; at < row + first + count; ++at) {
+          *at = *at == 0 || color.alpha == 255 ? ink : over(ink, *at);
+        }
+        left = first + count >= 64 ? 0 : left & ~std::uint64_t{0} << (first + count);
+      }
+      row += 64;
+    }
+  }
+}
+
+std::vector<std::uint32_t> GroundFills::means() const {
+  constexpr int kSide = GroundPicture::kSide_px;
+  std::vector<std::uint32_t> all;
+  all.reserve(std::size_t{kSide} * kSide * 4 / 3);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      std::uint32_t even = 0, odd = 0;  // sums of two channels each; 16 samples of 255 need 12 bits
+      for (int s = 0; s < kSamples; ++s) {
+        const std::uint32_t* at =
+            samples_.data() + static_cast<std::size_t>((y * kSamples + s) * kAcross + x * kSamples);
+        for (int k = 0; k < kSamples; ++k) {
+          even += at[k] & 0xFF00FFU;
+          odd += at[k] >> 8U & 0xFF00FFU;
+        }
+      }
+      all.push_back(((even + 0x80008U) >> 4U & 0xFF00FFU) | (((odd + 0x80008U) >> 4U & 0xFF00FFU) << 8U));
+    }
+  }
+  std::size_t from = 0;
+  for (int mip = 1, side = kSide; mip < GroundPicture::kMips; ++mip, side /= 2) {
+    const std::size_t next = all.size();
+    add_mip(all, from, side);
+    from = next;
+  }
+  return all;
+}
+
+void GroundLines::add(const GroundPart& part, const GroundObject& object) {
+  half_width_ = 0.5F * object.width_px;
+  const auto width = static_cast<std::uint32_t>(std::lround(std::min(1023.0F, 8.0F * half_width_)));
+  color_ = packed(object.line);
+  ++owner_;
+  if (best_.empty()) best_.resize(std::size_t{GroundPicture::kSide_px} * GroundPicture::kSide_px);
+  width_ = std::max(1U, width);
+  for (const GroundRun& run : part.runs) {
+    if (run.use == RunUse::fill) continue;
+    const double margin_px = reach_ + edges_.bend_px(run.box);
+    const glm::dvec2 low = edges_.texel({run.box.west, run.box.south}) - margin_px,
+                     high = edges_.texel({run.box.east, run.box.north}) + margin_px;
+    if (high.x < 0.0 || high.y < 0.0 || low.x > GroundPicture::kSide_px || low.y > GroundPicture::kSide_px) continue;
+    glm::dvec2 from = edges_.texel(part.points[run.first]);
+    const glm::dvec2 end = edges_.texel(part.points[run.first + run.pieces]);
+    for (std::uint32_t k = run.first; k < run.first + run.pieces; ++k) {
+      edges_.each(part.points[k], part.points[k + 1], [&](const glm::dvec2&, const glm::dvec2& b) {
+        if (std::hypot(b.x - from.x, b.y - from.y) < kFinest_px && b != end) return;
+        piece(from, b);
+        from = b;
+      });
+    }
+  }
+}
+
+// Goes through the texels within reach of a piece, row by row.
+void GroundLines::piece(glm::dvec2 a, glm::dvec2 b) {
+  constexpr int kSide = GroundPicture::kSide_px;
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const glm::dvec2 way = length > 0.0 ? (b - a) / length : glm::dvec2(1.0, 0.0);
+  const auto row = [](double v) { return static_cast<int>(std::clamp(std::floor(v), -1.0, double(kSide))); };
+  const int south = std::max(0, row(std::min(a.y, b.y) - reach_)),
+            north = std::min(kSide - 1, row(std::max(a.y, b.y) + reach_));
+  for (int y = south; y <= north; ++y) {
+    // The part of the row within reach of the piece's line.
+    const double off = y + 0.5 - a.y;
+    double west = std::min(a.x, b.x) - reach_, east = std::max(a.x, b.x) + reach_;
+    if (std::abs(way.y) > 0.05) {
+      const double middle = a.x + off * way.x / way.y, half = reach_ / std::abs(way.y);
+      west = std::max(west, middle - half);
+      east = std::min(east, middle + half);
+    }
+    const int first = std::max(0, row(west)), last = std::min(kSide - 1, row(east));
+    for (int x = first; x <= last; ++x) {
+      const double px = x + 0.5 - a.x, there = px * way.x + off * way.y;
+      const double along = std::clamp(there, 0.0, length);
+      const glm::vec2 to(along * way.x - px, along * way.y - off);
+      const float away = std::sqrt(to.x * to.x + to.y * to.y);
+      if (!(away < static_cast<float>(reach_))) continue;
+      Best& best = best_[static_cast<std::size_t>(y * kSide + x)];
+      const float over = std::max(0.0F, away - half_width_);
+      if (best.owner == owner_ ? away >= best.away : over > best.over) continue;
+      // Beside the piece, and where it nearly meets the texel's middle, the direction is across the piece.
+      const bool across = along == there || away < kNearEnd_px;
+      const glm::vec2 direction = across ? glm::vec2(-way.y, way.x) : to / away;
+      best = {away, over, across ? to.x * direction.x + to.y * direction.y : away, direction, color_, width_, owner_};
+    }
+  }
+}
+
+// The direction lies in a half turn, and the distance has a sign.
+std::vector<glm::uvec2> GroundLines::take() const {
+  std::vector<glm::uvec2> texels(best_.size(), glm::uvec2(0));
+  bool any = false;
+  for (std::size_t k = 0; k < best_.size(); ++k) {
+    const Best& best = best_[k];
+    if (best.owner == 0) continue;
+    any = true;
+    const float sign = best.direction.y < 0.0F ? -1.0F : 1.0F;
+    const auto code = [](double value) { return static_cast<std::uint32_t>(std::lround(value)); };
+    texels[k] = {best.color, best.width << 22U | code(512.0 + sign * 511.0 * double(best.distance) / reach_) << 12U |
+                                 code(32.0 + sign * 31.0 * double(best.direction.x)) << 6U |
+                                 code(sign * 63.0 * double(best.direction.y))};
+  }
+  return any ? texels : std::vector<glm::uvec2>();
+}
+
+FaceBox box_of(const FaceSquare& square, double reach_px) {
+  const double around = (GroundPicture::kRim_px + reach_px) / GroundPicture::kInner_px * square.side;
+  return {square.west - around, square.south - around, square.west + square.side + around,
+          square.south + square.side + around};
+}
+
+GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunks> layers, double stretch,
+                           const std::atomic<bool>& stop) {
+  GroundPicture picture;
+  GroundFills fills(square);
+  float widest_px = 0.0F;
+  each_part(layers, square.face, box_of(square, GroundPicture::kMostReach_px), stop,
+            [&](const GroundPart& part, const GroundObject& object) {
+              if (object.fill.alpha > 0) fills.add(part, object.fill);
+              if (has_line(object)) widest_px = std::max(widest_px, object.width_px);
+            });
+  if (stop) return picture;
+  if (fills.any()) picture.fill = fills.means();
+  if (widest_px == 0.0F) return picture;
+  while (picture.reach_px < GroundPicture::kMostReach_px &&
+         picture.reach_px < 0.5 * double(widest_px) * stretch + 2.0) {
+    picture.reach_px *= 2.0F;
+  }
+  GroundLines lines(square, double(picture.reach_px));
+  each_part(layers, square.face, box_of(square, double(picture.reach_px)), stop,
+            [&](const GroundPart& part, const GroundObject& object) {
+              if (has_line(object)) lines.add(part, object);
+            });
+  picture.line = lines.take();
+  return picture;
+}
+
+}  // namespace terrella

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "objects/ground/ground_batch.h"
+
+// Pictures of what lies on a square of the ground. thread: any
+namespace terrella {
+
+/// A square of a face, in face coordinates.
+struct FaceSquare {
+  CubeFace face = CubeFace::pos_x;
+  double west = -1.0, south = -1.0, side = 2.0;
+};
+
+/// The texels of a picture: rows from the south. A square fills the middle; around it is a rim of neighbours' texels.
+struct GroundPicture {
+  static constexpr int kSide_px = 256, kRim_px = 4, kInner_px = kSide_px - 2 * kRim_px;
+  static constexpr int kMips = 5;
+  static constexpr float kLeastReach_px = 4.0F, kMostReach_px = 64.0F;
+
+  /// Colours of areas, premultiplied, RGBA8: all mips, finest first. Empty: no area is there.
+  std::vector<std::uint32_t> fill;
+  /// For each texel the line that is nearest to its middle: the line's colour, RGBA8; and half its width in 1/8 px
+  /// (10 bits), its distance (10 bits, 512 + 511 · distance / reach) along a direction of a half turn (x: 6 bits, 32 +
+  /// 31 · x; y: 6 bits, 63 · y). 0: no line is within reach. Empty: no line is in the picture.
+  std::vector<glm::uvec2> line;
+  float reach_px = kLeastReach_px;  ///< most texels between a line and its texels
+};
+
+/// Objects of one layer that may lie on a square.
+using GroundChunks = std::vector<std::shared_ptr<const GroundChunk>>;
+
+/// Returns the part of a face that a square's picture shows, with texels up to `reach_px` around it.
+[[nodiscard]] FaceBox box_of(const FaceSquare& square, double reach_px);
+
+/// Paints a picture. `layers`: the lowest first. `stretch`: pixels are at most that many texels long. Areas that share
+/// an edge share no sample and leave none out. Ends early, with a useless result, once `stop` is set.
+[[nodiscard]] GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunks> layers, double stretch,
+                                         const std::atomic<bool>& stop);
+
+}  // namespace terrella

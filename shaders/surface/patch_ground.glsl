@@ -1,0 +1,92 @@
+// Areas and lines on the ground, from the pictures of a patch (GroundPicture of
+// engine/objects/ground/ground_picture.h, GroundFrame of engine/render/surface/ground_textures.h).
+layout(binding = 0) uniform sampler2DArray ground_fill;      // premultiplied
+layout(binding = 2) uniform usampler2DArray ground_line;
+layout(binding = GROUND_CELLS) uniform usamplerBuffer ground_cells;
+in vec2 ground_point;
+in float object_light;
+flat in uvec4 ground_window;
+
+const float kPictureSide = 256.0, kPictureRim = 4.0;
+// Over longer pixels a line is a ribbon on the ground, and fades, or the lines near the limb would run together, and
+// lines behind a crest would show before it.
+const float kLongestFullPixel = 6.0;
+
+// A picture's texels under a pixel: the place of its middle, and the changes along its sides.
+struct OnPicture {
+  vec2 at, a, b;
+};
+
+vec4 fill_tap(float slot, vec2 at, float level) {
+  return textureLod(ground_fill, vec3(at / kPictureSide, slot), level);
+}
+
+// The areas under a pixel. A pixel at a slant is longer than wide.
+vec4 areas_on(OnPicture p, float slot) {
+#if defined(SLANTED)
+  float along_a = dot(p.a, p.a), along_b = dot(p.b, p.b);
+  vec2 third = (along_a > along_b ? p.a : p.b) / 3.0;
+  float level = 0.5 * log2(max(dot(third, third), 1.0));
+  vec4 mean = (fill_tap(slot, p.at - third, level) + fill_tap(slot, p.at, level) + fill_tap(slot, p.at + third, level)) / 3.0;
+#else
+  vec4 mean = fill_tap(slot, p.at, 0.0);
+#endif
+  return vec4(mean.rgb * object_light, mean.a);
+}
+
+// The line nearest to a pixel. Its distance is measured across the line in the picture, so its width holds at a slant.
+vec4 line_on(OnPicture p, int slot, float reach) {
+  ivec2 texel = ivec2(p.at);
+  uvec2 line = texelFetch(ground_line, ivec3(texel, slot), 0).xy;
+  uvec4 parts = (uvec4(line.y) >> uvec4(22u, 12u, 6u, 0u)) & uvec4(1023u, 1023u, 63u, 63u);
+  float half_width = float(parts.x) / 8.0;
+  vec2 across = vec2(parts.zw) * vec2(1.0 / 31.0, 1.0 / 63.0) - vec2(32.0 / 31.0, 0.0);
+  float away = dot(across, p.at - (vec2(texel) + 0.5)) - (float(parts.y) - 512.0) * (reach / 511.0);
+  vec2 per_px = vec2(dot(across, p.a), dot(across, p.b));
+  float px = inversesqrt(max(dot(per_px, per_px), 1e-12));
+#if defined(SLANTED)
+  float size = abs(p.a.x * p.b.y - p.a.y * p.b.x), long_sq = max(max(dot(p.a, p.a), dot(p.b, p.b)), 1e-12);
+  half_width *= min(1.0, kLongestFullPixel * size * inversesqrt(long_sq) * px);
+  float shown = min(1.0, kLongestFullPixel * size / long_sq);
+#else
+  const float shown = 1.0;
+#endif
+  float coverage = clamp(0.5 + half_width - abs(away) * px, 0.0, 1.0) * min(1.0, 2.0 * half_width) * shown;
+  uvec4 bytes = (uvec4(line.x) >> uvec4(0u, 8u, 16u, 24u)) & 255u;
+  float alpha = float(bytes.w) / 255.0 * coverage;
+  return vec4(vec3(bytes.xyz) / 255.0 * alpha, alpha);
+}
+
+// Objects on the ground of the pixel, premultiplied.
+vec4 on_ground() {
+  float side = float(1u << ground_window.y);
+  vec2 p = clamp(ground_point, 0.0, 1.0) * side, cell = min(floor(p), side - 1.0);
+  uvec2 words = texelFetch(ground_cells, int(ground_window.x) + int(cell.y * side + cell.x)).xy;
+  float part = uintBitsToFloat((127u - (words.y & 15u)) << 23) * (kPictureSide - 2.0 * kPictureRim);  // texels of a cell
+  vec2 first = vec2((words.y >> 4) & 4095u, (words.y >> 16) & 4095u);
+  OnPicture there = OnPicture((p - cell + first) * part + kPictureRim, dFdx(ground_point) * (side * part),
+                              dFdy(ground_point) * (side * part));
+  vec4 sum = vec4(0.0);
+#if defined(AREAS)
+  uint fill_slot = words.x & 65535u;
+  sum = areas_on(there, float(fill_slot)) * (fill_slot == 65535u ? 0.0 : 1.0);
+#endif
+#if defined(LINES)
+  uint line_slot = words.x >> 16;
+  float reach = uintBitsToFloat((129u + (words.y >> 28)) << 23);
+  vec4 line = line_on(there, int(line_slot == 65535u ? 0u : line_slot), reach) * (line_slot == 65535u ? 0.0 : 1.0);
+  sum = line + (1.0 - line.a) * sum;
+#endif
+  return sum;
+}
+
+// Seen through the air.
+vec4 objects_seen() {
+  vec4 sum = on_ground();
+  return sum.a > 0.0 ? vec4(through_air(sum.rgb, sum.a), sum.a) : vec4(0.0);
+}
+
+vec4 under_objects(vec4 ground_srgb) {
+  vec4 objects = objects_seen();
+  return objects + (1.0 - objects.a) * ground_srgb;
+}
