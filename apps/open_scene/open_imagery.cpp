@@ -153,6 +153,7 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options,
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
   if (Status same = check_body(options, info); !same) return same.error();
+  for (const std::string& remark : info.remarks) print_message("terrella: {}\n", remark);
   const bool mercator = info.made_of && info.made_of->projection == Projection::web_mercator;
   if (options.projection && mercator != (*options.projection == Projection::web_mercator)) {
     return Error{name_of(options) + (mercator

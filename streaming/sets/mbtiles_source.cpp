@@ -144,6 +144,17 @@ std::optional<TileRange> tiles_of_level(SqliteReader& reader, int level) {
   return TileRange{(*found)[0], (*found)[1], (*found)[2], (*found)[3]};
 }
 
+/// Says that tiles of a level are strays; empty if none are.
+std::string strays_text(SqliteReader& reader, int level, const std::string& where) {
+  const auto least =
+      numbers<2>(reader, fmt::format("SELECT min(tile_column), min(tile_row) FROM tiles WHERE zoom_level = {}", level));
+  if (!least || ((*least)[0] >= 0 && (*least)[1] >= 0)) return {};
+  return fmt::format(
+      "{}: its tiles with a column or row under 0 (level {}, column {}, row {} at the least) lie on no "
+      "grid and are left out",
+      where, level, (*least)[0], (*least)[1]);
+}
+
 /// 180°, or 360° if the finest tiles belong to one root tile.
 double root_span_of(const std::optional<TileRange>& finest, const TileGrid& grid) {
   if (!finest || grid.max_level == 0) return 180.0;
@@ -283,6 +294,9 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   if (Status looked = look_at_tile(*reader, info, where); !looked) return looked.error();
   if (Status levels = read_levels(*reader, *metadata, info.grid, where); !levels) return levels.error();
   const std::optional<TileRange> finest = tiles_of_level(*reader, info.grid.max_level);
+  if (std::string strays = strays_text(*reader, info.grid.max_level, where); !strays.empty()) {
+    info.remarks.push_back(std::move(strays));
+  }
   const auto place = geodetic ? place_geodetic : place_mercator;
   if (Status placed = place(finest, info.grid, where); !placed) return placed.error();
   Result<std::unique_ptr<SqliteTiles>, SqlError> tiles = SqliteTiles::open(path, "tiles");

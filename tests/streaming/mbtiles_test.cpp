@@ -114,6 +114,8 @@ TEST(Mbtiles, StrayTilesUnderZeroAreLeftOut) {
   const auto source = open_tile_set(file);
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_EQ((*source)->info().grid.max_level, 1);
+  ASSERT_EQ((*source)->info().remarks.size(), 1U);
+  EXPECT_NE((*source)->info().remarks[0].find("level 1, column -1, row 0"), std::string::npos);
 }
 
 TEST(Mbtiles, BoundsOfItsMetadataNarrowIt) {
