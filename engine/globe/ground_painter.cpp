@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -47,8 +48,12 @@ void GroundPainter::work(const std::shared_ptr<Shared>& shared) {
     shared->waiting.pop_front();
     shared->painting.insert(job.id);
     lock.unlock();
-    PaintedGround done{job.id, job.stretch, job.revision,
-                       paint_ground(square_of(job.id), job.layers, job.stretch, shared->stop)};
+    PaintedGround done{job.id, job.stretch, job.revision, {}};
+    try {
+      done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared->stop);
+    } catch (const std::bad_alloc&) {
+      done.is_painted = false;
+    }
     lock.lock();
     if (shared->stop) return;
     shared->done.push_back(std::move(done));

@@ -33,6 +33,7 @@ struct PaintedGround {
   double stretch = 1.0;
   std::uint64_t revision = 0;
   GroundPicture picture;
+  bool is_painted = true;  ///< false: there was no memory
 };
 
 /// Threads that paint pictures of the ground, begun by the first job. The destructor stops them and does not wait.

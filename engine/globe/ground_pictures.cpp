@@ -13,7 +13,7 @@ namespace {
 
 /// A frame asks for this many pictures at once.
 constexpr std::size_t kMostJobs = 48;
-constexpr std::size_t kManyEntries = 4096;
+constexpr std::size_t kManyEntries = 4096, kManyAnswers = 65536;
 /// A patch is shown by at most 2^this pictures a side.
 constexpr int kMostDepth = 6;
 /// Slopes of relief stretch pixels further.
@@ -73,6 +73,7 @@ bool GroundPictures::follow(const std::vector<DrawnLayer>& layers) {
 }
 
 bool GroundPictures::meets(const PatchId& id) {
+  if (meets_.size() > kManyAnswers) meets_.clear();
   const auto [at, is_new] = meets_.try_emplace(id, false);
   if (!is_new) return at->second;
   const FaceBox box = box_of(square_of(id), GroundPicture::kMostReach_px);
@@ -102,6 +103,7 @@ bool GroundPictures::evict(std::uint64_t frame) {
 std::size_t GroundPictures::take_painted(std::uint64_t frame) {
   const std::vector<PaintedGround> all = painter_.take();
   for (const PaintedGround& painted : all) {
+    if (!painted.is_painted) continue;  // the next frame wants it again
     Entry& entry = entries_[painted.id];
     GroundSlots slots = std::exchange(entry.slots, {});
     bool there = textures_.put(painted.picture, slots);

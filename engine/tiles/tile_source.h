@@ -74,7 +74,7 @@ struct TileSetInfo {
   /// The grid of the tiles from which this set's tiles are made.
   std::optional<TileGrid> made_of = {};
   std::optional<CrsSquare> square = {};   ///< square of a `projected` grid: this set's, or that of `made_of`
-  std::vector<std::string> remarks = {};  ///< what was left out when the set was opened, for the user
+  std::vector<std::string> remarks = {};  ///< notes for the user: what was left out when the set was opened
 };
 
 /// The reason why a tile is missing (engine/DESIGN.md, 11). Each kind has its own lifetime.

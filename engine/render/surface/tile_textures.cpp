@@ -36,6 +36,11 @@ int most(GLenum limit) {
   return value;
 }
 
+/// Layers of an array that a slot's number can name and the driver has.
+std::size_t most_layers() {
+  return static_cast<std::size_t>(std::min(most(GL_MAX_ARRAY_TEXTURE_LAYERS), 1 << TileTextures::kLayerBits));
+}
+
 /// The place of a slot: the corner of its mip `k`, and its layer.
 struct SlotCorner {
   GLint x, y, layer;
@@ -43,6 +48,10 @@ struct SlotCorner {
 SlotCorner corner_of(const SlotLayout& layout, int slot, int k) {
   const int side = layout.slot_px() >> k, at = slot >> TileTextures::kLayerBits;
   return {(at & 3) * side, (at >> 2) * side, slot & ((1 << TileTextures::kLayerBits) - 1)};
+}
+
+int layers_for(const SlotLayout& layout, int slots) {
+  return (slots + layout.slots_a_layer() - 1) / layout.slots_a_layer();
 }
 
 /// Returns the number of texels around the planet in the tiles of a level and squeeze, if the columns close at ±180°.
@@ -68,31 +77,26 @@ std::optional<TileId> beside(const TileGrid& grid, const TileId& id, int dx, int
 }  // namespace
 
 TileTextures::TileTextures(const TileGrid& grid, const SlotLayout& layout, int mips, std::size_t budget_bytes)
-    : grid_(grid), layout_(layout), mips_(mips) {
-  layout_.slots_a_side = slots_a_side_for(budget_bytes);
-  most_slots_ = slots_for(budget_bytes);
+    : grid_(grid), layout_(layout), mips_(mips), most_slots_(slots_for(budget_bytes)) {
   grow();
 }
 
-// As few as the budget needs. Each mip of a slot must begin at a whole texel and have a gutter.
-int TileTextures::slots_a_side_for(std::size_t bytes) const {
-  const auto layers = static_cast<std::size_t>(std::min(most(GL_MAX_ARRAY_TEXTURE_LAYERS), 1 << kLayerBits));
+// As few as so many slots need. Each mip of a slot must begin at a whole texel and have a gutter.
+int TileTextures::slots_a_side_for(std::size_t slots) const {
   const int coarsest = 1 << (mips_ - 1);
   const bool whole = layout_.slot_px() % coarsest == 0 && layout_.gutter_px >= coarsest;
-  std::size_t side = 1;
-  while (whole && side < kMostSlotsASide && bytes / slot_bytes() > layers * side * side &&
-         2 * static_cast<int>(side) * layout_.slot_px() <= most(GL_MAX_TEXTURE_SIZE)) {
+  int side = 1;
+  while (whole && side < kMostSlotsASide && slots > most_layers() * side * side &&
+         2 * side * layout_.slot_px() <= most(GL_MAX_TEXTURE_SIZE)) {
     side *= 2;
   }
-  return static_cast<int>(side);
+  return side;
 }
 
-// Whole layers.
 int TileTextures::slots_for(std::size_t bytes) const {
-  const auto a_layer = static_cast<std::size_t>(layout_.slots_a_layer());
-  const auto layers = static_cast<std::size_t>(std::min(most(GL_MAX_ARRAY_TEXTURE_LAYERS), 1 << kLayerBits));
-  const std::size_t fit = std::clamp<std::size_t>(bytes / slot_bytes() / a_layer, (16 + a_layer - 1) / a_layer, layers);
-  return static_cast<int>(fit * a_layer);
+  const std::size_t fit = std::max<std::size_t>(bytes / slot_bytes(), 16);
+  const int side = slots_a_side_for(fit);
+  return static_cast<int>(std::min(fit, most_layers() * side * side));
 }
 
 // Returns the slot that is the n-th to be used: layer by layer.
@@ -120,13 +124,6 @@ void TileTextures::paint_empty() {
   }
 }
 
-gl::Texture TileTextures::make_array(int slots) const {
-  gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(array.name(), mips_, format_of(layout_).stored, layout_.layer_px(), layout_.layer_px(),
-                     slots / layout_.slots_a_layer());
-  return gl::has_storage(array) ? std::move(array) : gl::Texture();
-}
-
 // Copies the first layers with all mips.
 void TileTextures::copy_layers(const gl::Texture& from, int layers) const {
   for (int k = 0; k < mips_; ++k) {
@@ -138,26 +135,39 @@ void TileTextures::copy_layers(const gl::Texture& from, int layers) const {
 
 void TileTextures::set_budget(std::size_t bytes) {
   memory_refused_ = false;
-  const int slots_a_side = std::max(slots_a_side_for(bytes), layout_.slots_a_side);
-  if (slots_a_side > layout_.slots_a_side) make_anew(slots_a_side, slots_);
   most_slots_ = slots_for(bytes);
-  if (slots_ > most_slots_) make_anew(slots_a_side, most_slots_);
+  if (slots_ > most_slots_ && !make_anew(most_slots_)) most_slots_ = slots_;
 }
 
-// Makes the array with so many slots, or more to fill the last layer. Keeps the tiles of the coarsest level first, then
-// the most recently drawn. The array stays as it is if there is no room for both.
-void TileTextures::make_anew(int slots_a_side, int slots) {
+// Makes the array with so many slots. False, with the array as it is, if there is no memory for both.
+bool TileTextures::make_anew(int slots) {
   const SlotLayout before = layout_;
-  layout_.slots_a_side = slots_a_side;
-  const int a_layer = layout_.slots_a_layer();
-  slots = (slots + a_layer - 1) / a_layer * a_layer;
-  gl::Texture array = make_array(slots);
-  if (!array) {
+  const int layers_before = layers_for(layout_, slots_);
+  SlotLayout after = layout_;
+  after.slots_a_side = slots_a_side_for(static_cast<std::size_t>(slots));
+  gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(array.name(), mips_, format_of(after).stored, after.layer_px(), after.layer_px(),
+                     layers_for(after, slots));
+  if (!gl::has_storage(array)) {
     memory_refused_ = true;
-    most_slots_ = slots_;
-    layout_ = before;
-    return;
+    return false;
   }
+  const gl::Texture old = std::exchange(texture_, std::move(array));
+  const bool is_longer = old && slots > slots_ && after.slots_a_side == before.slots_a_side;
+  layout_ = after;
+  slots_ = slots;
+  if (is_longer) {
+    copy_layers(old, layers_before);
+  } else {
+    paint_empty();
+    move_tiles(old, before);
+  }
+  return true;
+}
+
+// Moves the tiles from an earlier array, as many as there are slots: those of the coarsest level first, then the most
+// recently drawn.
+void TileTextures::move_tiles(const gl::Texture& from, const SlotLayout& before) {
   std::vector<std::pair<TileId, TileResidency::Entry*>> tiles;
   for (auto& [id, entry] : residency_.entries()) {
     if (entry.state == TileState::resident) tiles.emplace_back(id, &entry);
@@ -166,10 +176,7 @@ void TileTextures::make_anew(int slots_a_side, int slots) {
     const bool a_root = a.first.level == grid_.min_level, b_root = b.first.level == grid_.min_level;
     return a_root != b_root ? a_root : a.second->last_drawn > b.second->last_drawn;
   });
-  slots_ = slots;
   used_ = 1;
-  const gl::Texture old = std::exchange(texture_, std::move(array));
-  paint_empty();
   for (const auto& [id, entry] : tiles) {
     if (used_ == slots_) {
       residency_.erase(id);
@@ -177,10 +184,9 @@ void TileTextures::make_anew(int slots_a_side, int slots) {
     }
     const int from_slot = std::exchange(entry->slot, slot(used_++));
     for (int k = 0; k < mips_; ++k) {
-      const SlotCorner from = corner_of(before, from_slot, k), to = corner_of(layout_, entry->slot, k);
-      glCopyImageSubData(old.name(), GL_TEXTURE_2D_ARRAY, k, from.x, from.y, from.layer, texture_.name(),
-                         GL_TEXTURE_2D_ARRAY, k, to.x, to.y, to.layer, layout_.slot_px() >> k, layout_.slot_px() >> k,
-                         1);
+      const SlotCorner a = corner_of(before, from_slot, k), b = corner_of(layout_, entry->slot, k);
+      glCopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, k, a.x, a.y, a.layer, texture_.name(), GL_TEXTURE_2D_ARRAY,
+                         k, b.x, b.y, b.layer, layout_.slot_px() >> k, layout_.slot_px() >> k, 1);
     }
   }
 }
@@ -192,23 +198,15 @@ std::size_t TileTextures::slot_bytes() const {
   return texels * format_of(layout_).bytes;
 }
 
+std::size_t TileTextures::bytes() const {
+  return static_cast<std::size_t>(layers_for(layout_, slots_) * layout_.slots_a_layer()) * slot_bytes();
+}
+
 // If there is no memory for twice as many slots, tries to get fewer more, and then goes on with those that are there.
 bool TileTextures::grow() {
-  const int wanted = slots_ == 0 ? kFirstSlots : 2 * slots_, a_layer = layout_.slots_a_layer();
-  const int least = std::max(kLeastMore, a_layer);
-  for (int more = std::min(most_slots_, wanted) - slots_; more > 0;
-       more = more > least ? more / 2 / a_layer * a_layer : 0) {
-    gl::Texture larger = make_array(slots_ + more);
-    memory_refused_ = memory_refused_ || !larger;
-    if (!larger) continue;
-    std::swap(texture_, larger);
-    if (larger) {
-      copy_layers(larger, slots_ / a_layer);
-    } else {
-      paint_empty();
-    }
-    slots_ += more;
-    return true;
+  const int wanted = slots_ == 0 ? kFirstSlots : 2 * slots_;
+  for (int more = std::min(most_slots_, wanted) - slots_; more > 0; more = more > kLeastMore ? more / 2 : 0) {
+    if (make_anew(slots_ + more)) return true;
   }
   most_slots_ = slots_;
   return false;

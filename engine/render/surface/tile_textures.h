@@ -27,11 +27,11 @@ struct SlotLayout {
   [[nodiscard]] int mip_px(int k) const { return (tile_px >> k) + 2 * (gutter_px >> k); }
 };
 
-/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. If
-/// the driver's array textures have too few layers for the budget, a layer holds several slots side by side. There are
-/// fewer slots than the budget allows if the driver has no memory for more. Slot 0 is a plain colour or transparent,
-/// for numbers "no data", for places without imagery. A slot's gutter receives the texels of neighbouring tiles as they
-/// arrive, so that filtering continues across a tile's border. thread: main
+/// Texture slots for tiles: one array texture that grows up to a budget and evicts the least recently drawn tile. Once
+/// the driver's array textures have too few layers, a layer holds several slots side by side. There are fewer slots
+/// than the budget allows if the driver has no memory for more. Slot 0 is a plain colour or transparent, for numbers
+/// "no data", for places without imagery. A slot's gutter receives the texels of neighbouring tiles as they arrive, so
+/// that filtering continues across a tile's border. thread: main
 class TileTextures {
  public:
   /// A slot is a number of 16 bits: its layer in the array, its column (2 bits) and its row (2 bits) in that layer.
@@ -64,18 +64,17 @@ class TileTextures {
   [[nodiscard]] bool memory_refused() const { return memory_refused_; }  ///< since the last set_budget()
   [[nodiscard]] int free_slots() const { return most_slots_ - used_; }   ///< tiles that fit without evicting one
   [[nodiscard]] std::size_t slot_bytes() const;
-  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(slots_) * slot_bytes(); }
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// Makes an array; none if the driver has no memory for it.
-  [[nodiscard]] gl::Texture make_array(int slots) const;
-  void copy_layers(const gl::Texture& from, int layers) const;
-  int take_slot(std::uint64_t frame);
-  [[nodiscard]] int slot(int number) const;
-  [[nodiscard]] int slots_a_side_for(std::size_t bytes) const;
+  [[nodiscard]] int slots_a_side_for(std::size_t slots) const;
   [[nodiscard]] int slots_for(std::size_t bytes) const;
+  [[nodiscard]] int slot(int number) const;
+  int take_slot(std::uint64_t frame);
   bool grow();
-  void make_anew(int slots_a_side, int slots);
+  bool make_anew(int slots);
+  void copy_layers(const gl::Texture& from, int layers) const;
+  void move_tiles(const gl::Texture& from, const SlotLayout& before);
   void paint_empty();
   [[nodiscard]] bool is_resident(const TileId& id) const;
   void join_gutters(const TileId& id);
@@ -88,7 +87,7 @@ class TileTextures {
   SlotLayout layout_;
   int mips_;
   int most_slots_;
-  int slots_ = 0;
+  int slots_ = 0;  ///< slots of the array, at most most_slots_
   bool memory_refused_ = false;
   int used_ = 1;
   Empty empty_ = Empty::plain_colour;
