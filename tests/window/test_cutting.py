@@ -80,7 +80,7 @@ class Cutting(WindowTest):
         time.sleep(1.5)
         done = png.read(self.screenshot(last, "whole"))
         self.assertFalse(self.has_bar(done))
-        self.assert_sand(done)
+        self.assertTrue(self.has_sand(done), "no Sahara in the middle")
         self.assertEqual(last.quit(), 0)
 
         again = self.view()
@@ -116,13 +116,15 @@ class Cutting(WindowTest):
         viewer.key("l")
 
     def assert_coarse_picture_and_bar(self, viewer):
-        shot = png.read(self.screenshot(viewer, "coarse"))
-        self.assert_sand(shot)
-        self.assertTrue(self.has_bar(shot))
+        def sandy():
+            shot = png.read(self.screenshot(viewer, "coarse"))
+            return shot if self.has_sand(shot) else None
 
-    def assert_sand(self, shot):
+        self.assertTrue(self.has_bar(wait_until("the Sahara", sandy)))
+
+    def has_sand(self, shot):
         red, _, blue = png.pixel(shot, *SAHARA)
-        self.assertGreater(red, blue + 20, "no Sahara in the middle")
+        return red > blue + 20
 
     def has_bar(self, shot):
         left, right, row = BAR

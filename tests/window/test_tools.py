@@ -3,7 +3,7 @@
 import unittest
 
 import png
-from real_window import SIZE, WindowTest
+from real_window import SIZE, WindowTest, wait_until
 
 
 class Tools(WindowTest):
@@ -47,10 +47,14 @@ class Tools(WindowTest):
         middle = (SIZE[0] // 2, SIZE[1] // 2)
         for dx, dy in ((-100, 0), (100, 0), (0, -120)):
             viewer.click(middle[0] + dx, middle[1] + dy)
-        measured = png.read(self.screenshot(viewer, "measured"))
+
         # The ways between are drawn, in the tool's yellow, where they lie in the picture: the first one on the equator.
-        red, green, blue = png.pixel(measured, middle[0], middle[1])
-        self.assertGreater(min(red, green) - blue, 60, "no yellow line on the equator")
+        def with_way():
+            shot = png.read(self.screenshot(viewer, "measured"))
+            red, green, blue = png.pixel(shot, *middle)
+            return shot if min(red, green) - blue > 60 else None
+
+        measured = wait_until("a yellow line on the equator", with_way)
         self.assertGreater(png.changed(plain, measured), 2000)
         viewer.key("BackSpace")
         viewer.key("Return")
