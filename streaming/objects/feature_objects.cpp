@@ -58,6 +58,7 @@ class GeometryReader {
  private:
   template <class Read>
   void whole(const json& geometry, const Read& read) {
+    has_heights_ = false;
     const auto coordinates = geometry.find("coordinates");
     const Status done =
         coordinates == geometry.end() ? Error{"its geometry has no \"coordinates\""} : read(*coordinates);
@@ -71,17 +72,19 @@ class GeometryReader {
       return complain_(fmt::format("its geometry has no list \"{}\"", member));
     }
     for (std::size_t k = 0; k < parts->size(); ++k) {
+      has_heights_ = false;
       if (const Status done = read((*parts)[k]); !done) {
         complain_(fmt::format("part {}: {}", k + 1, done.error().message));
       }
     }
   }
 
-  Result<Geodetic> read_place(const json& position) const {
+  Result<Geodetic> read_place(const json& position) {
     const auto flat = geojson_position(position);
     if (!flat) return flat.error();
     Geodetic place{.lat = Angle::degrees(flat->lat_deg), .lon = Angle::degrees(flat->lon_deg)};
     if (position.size() < 3) return place;
+    has_heights_ = true;
     if (!position[2].is_number()) return Error{"the third coordinate of a position is not a number"};
     const double third = position[2].get<double>();
     place.height_m = third_ == ThirdCoordinate::depth_km ? -kMetresOfKm * third : third;
@@ -91,7 +94,7 @@ class GeometryReader {
     return place;
   }
 
-  Result<std::vector<Geodetic>> read_places(const json& positions, std::size_t fewest, const char* what) const {
+  Result<std::vector<Geodetic>> read_places(const json& positions, std::size_t fewest, const char* what) {
     if (!positions.is_array() || positions.size() < fewest) {
       return Error{fmt::format("{} has fewer than {} positions", what, fewest)};
     }
@@ -105,14 +108,21 @@ class GeometryReader {
     return places;
   }
 
+  /// The meaning of the heights of the object that was read: the objects of a map have none and lie on the ground.
+  [[nodiscard]] HeightMode heights() const {
+    return style_.heights.value_or(has_heights_ ? HeightMode::absolute : HeightMode::clamp_to_ground);
+  }
+
   Status add_point(const json& coordinates) {
     const auto place = read_place(coordinates);
     if (!place) return place.error();
     PointObject point = style_.point;
     point.place = *place;
+    point.heights = heights();
     if (style_.mesh.model) {
       MeshObject mesh = style_.mesh;
       mesh.place = *place;
+      mesh.heights = point.heights;
       scene_.meshes.push_back(std::move(mesh));
     } else {
       scene_.points.push_back(point);
@@ -120,6 +130,7 @@ class GeometryReader {
     if (style_.label.text.empty()) return Done{};
     LabelObject label = style_.label;
     label.place = *place;
+    label.heights = point.heights;
     label.size_px = point.radius_m > 0.0 ? 0.0F : width_px(point);
     label.radius_m = point.radius_m;
     label.through_surface = point.through_surface;
@@ -132,6 +143,7 @@ class GeometryReader {
     if (!places) return places.error();
     LineObject line = style_.line;
     line.places = std::move(*places);
+    line.heights = heights();
     scene_.lines.push_back(std::move(line));
     return Done{};
   }
@@ -145,11 +157,12 @@ class GeometryReader {
       if (!ring) return Error{fmt::format("ring {}: {}", k + 1, ring.error().message)};
       polygon.rings.push_back(std::move(*ring));
     }
+    polygon.heights = heights();
     scene_.polygons.push_back(std::move(polygon));
     return Done{};
   }
 
-  Result<std::vector<Geodetic>> read_ring(const json& positions, double& pieces) const {
+  Result<std::vector<Geodetic>> read_ring(const json& positions, double& pieces) {
     constexpr std::size_t kFewest = 4;  // RFC 7946, 3.1.6: the last repeats the first
     auto places = read_places(positions, kFewest, "it");
     if (!places) return places.error();
@@ -172,6 +185,7 @@ class GeometryReader {
   ThirdCoordinate third_;
   ObjectScene& scene_;
   const Complain& complain_;
+  bool has_heights_ = false;  ///< the object that is read has positions with a third coordinate
 };
 
 }  // namespace

@@ -58,14 +58,15 @@ class StyleReader {
     return std::nullopt;
   }
 
-  /// Names of KML.
-  HeightMode height_mode() const {
+  /// Names of KML. None if the feature says nothing.
+  std::optional<HeightMode> height_mode() const {
     const json* value = find("altitude-mode");
-    if (value == nullptr || *value == "absolute") return HeightMode::absolute;
+    if (value == nullptr) return std::nullopt;
+    if (*value == "absolute") return HeightMode::absolute;
     if (*value == "clampToGround") return HeightMode::clamp_to_ground;
     if (*value == "relativeToGround") return HeightMode::relative_to_ground;
     complain_("\"altitude-mode\" must be absolute, clampToGround or relativeToGround");
-    return HeightMode::absolute;
+    return std::nullopt;
   }
 
   /// Text of a property that simplestyle does not define. Another type causes no complaint, because other programs may
@@ -212,8 +213,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   }
   style.mesh.through_surface = style.point.through_surface = style.line.through_surface =
       style.polygon.through_surface = through;
-  style.mesh.heights = style.point.heights = style.line.heights = style.polygon.heights = style.label.heights =
-      reader.height_mode();
+  style.heights = reader.height_mode();
   static_cast<void>(reader.simplestyle_text("description"));
   const std::string symbol = reader.marker_symbol();
   style.label.text = reader.simplestyle_text("title");

@@ -9,8 +9,9 @@
 
 namespace terrella {
 
-/// Appearance of the objects of a feature.
+/// Appearance of the objects of a feature, all without their heights.
 struct ObjectStyle {
+  std::optional<HeightMode> heights;  ///< none: the positions decide
   PointObject point;                  ///< all but its place
   LineObject line;                    ///< all but its places
   PolygonObject polygon;              ///< all but its rings

@@ -100,7 +100,22 @@ TEST(GeojsonObjects, AnAltitudeModeSaysWhatHeightsMean) {
   EXPECT_EQ(file.scene.points[0].heights, HeightMode::clamp_to_ground);
   EXPECT_EQ(file.scene.labels[0].heights, HeightMode::clamp_to_ground);
   EXPECT_EQ(file.scene.lines[0].heights, HeightMode::relative_to_ground);
-  for (const std::size_t k : {1U, 2U, 3U}) EXPECT_EQ(file.scene.points[k].heights, HeightMode::absolute);
+  EXPECT_EQ(file.scene.points[1].heights, HeightMode::absolute);
+}
+
+// The objects of a map have no heights. Over relief they would lie under the mountains.
+TEST(GeojsonObjects, WithoutAThirdCoordinateLiesOnTheGround) {
+  const ObjectFile file = good(
+      collection(feature(geometry("MultiPoint", "[[1,2,3],[1,2]]"), R"({"title":"Here"})") + "," +
+                 feature(geometry("MultiLineString", "[[[0,0],[1,1,0]],[[0,0],[1,1]]]")) + "," +
+                 feature(geometry("MultiPolygon", "[[[[0,0,7],[9,0],[9,9],[0,0,7]]],[[[0,0],[9,0],[9,9],[0,0]]]]"))));
+  ASSERT_EQ(file.scene.polygons.size(), 2U);
+  for (const auto& [k, heights] : {std::pair{0U, HeightMode::absolute}, {1U, HeightMode::clamp_to_ground}}) {
+    EXPECT_EQ(file.scene.points[k].heights, heights);
+    EXPECT_EQ(file.scene.labels[k].heights, heights);
+    EXPECT_EQ(file.scene.lines[k].heights, heights);
+    EXPECT_EQ(file.scene.polygons[k].heights, heights);
+  }
 }
 
 TEST(GeojsonObjects, AnAreaIsExtrudedByMetres) {

@@ -33,25 +33,30 @@ std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Ge
 
 ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
   ObjectScene scene;
+  constexpr HeightMode kOnGround = HeightMode::clamp_to_ground;
   for (const Geodetic& place : places_) {
-    scene.points.push_back({.place = place, .size_px = scale * kMarker_px, .color = kMeasureInk});
+    scene.points.push_back({.place = place, .size_px = scale * kMarker_px, .color = kMeasureInk, .heights = kOnGround});
   }
   if (places_.size() < 2) return scene;
-  scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk});
+  scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk, .heights = kOnGround});
   for (std::size_t k = 1; k < places_.size(); ++k) {
     scene.labels.push_back({.text = length_text(geodesic_m(ellipsoid, places_[k - 1], places_[k])),
                             .place = geodesic_places(ellipsoid, places_[k - 1], places_[k], 3)[1],
                             .size_px = scale * kWay_px,
-                            .priority = 1.0});
+                            .priority = 1.0,
+                            .heights = kOnGround});
   }
   if (places_.size() < 3) return scene;
   scene.labels.push_back({.text = "Total " + length_text(path_m(ellipsoid, places_)),
                           .place = places_.back(),
                           .size_px = scale * kMarker_px,
-                          .priority = 2.0});
-  scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}});
-  scene.lines.push_back(
-      {.places = {places_.back(), places_.front()}, .width_px = scale * kWayBack_px, .color = kWayBack});
+                          .priority = 2.0,
+                          .heights = kOnGround});
+  scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}, .heights = kOnGround});
+  scene.lines.push_back({.places = {places_.back(), places_.front()},
+                         .width_px = scale * kWayBack_px,
+                         .color = kWayBack,
+                         .heights = kOnGround});
   return scene;
 }
 
