@@ -193,13 +193,12 @@ void GlobeView::Impl::plan_ground() {
     ground = {};
     return;
   }
-  globe->ground_pictures->take_painted(frame);
+  globe->ground_pictures->take_painted();
   globe->ground_pictures->plan({.view = view,
                                 .tree = stack.front()->tree(),
                                 .patches = stack.front()->patches(),
                                 .has_relief = globe->heights != nullptr,
-                                .clearance_m = clearance_m(),
-                                .frame = frame},
+                                .clearance_m = clearance_m()},
                                ground);
   std::vector<const ViewGround*> views;
   for (const Impl* each : globe->views) views.push_back(&each->ground);

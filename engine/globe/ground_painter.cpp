@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -39,43 +40,52 @@ GroundPainter::~GroundPainter() {
   for (std::future<void>& worker : workers_) end_late(std::move(worker));
 }
 
+// Paints the first picture that waits. The lock is held before and after.
+void GroundPainter::paint(Shared& shared, std::unique_lock<std::mutex>& lock) {
+  const GroundJob job = std::move(shared.waiting.front());
+  shared.waiting.pop_front();
+  shared.painting.insert(job.id);
+  lock.unlock();
+  PaintedGround done{job.id, job.stretch, job.revision, {}};
+  try {
+    done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared.stop);
+  } catch (const std::bad_alloc&) {
+    done.is_painted = false;
+  }
+  lock.lock();
+  if (shared.stop) return;
+  shared.done.push_back(std::move(done));
+  lock.unlock();
+  shared.bell->ring();
+  lock.lock();
+}
+
 void GroundPainter::work(const std::shared_ptr<Shared>& shared) {
   std::unique_lock lock(shared->mutex);
   for (;;) {
     shared->asked.wait(lock, [&] { return shared->stop || !shared->waiting.empty(); });
     if (shared->stop) return;
-    const GroundJob job = std::move(shared->waiting.front());
-    shared->waiting.pop_front();
-    shared->painting.insert(job.id);
-    lock.unlock();
-    PaintedGround done{job.id, job.stretch, job.revision, {}};
-    try {
-      done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared->stop);
-    } catch (const std::bad_alloc&) {
-      done.is_painted = false;
+    paint(*shared, lock);
+  }
+}
+
+void GroundPainter::start() {
+  const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, kMostPainters);
+  try {
+    while (workers_.size() < count) {
+      workers_.push_back(std::async(std::launch::async, [shared = shared_] { work(shared); }));
     }
-    lock.lock();
-    if (shared->stop) return;
-    shared->done.push_back(std::move(done));
-    lock.unlock();
-    shared->bell->ring();
-    lock.lock();
+  } catch (const std::system_error&) {  // the system has no more threads
   }
 }
 
 void GroundPainter::ask(std::deque<GroundJob> jobs) {
-  if (workers_.empty()) {
-    if (jobs.empty()) return;
-    const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, kMostPainters);
-    for (unsigned k = 0; k < count; ++k) {
-      workers_.push_back(std::async(std::launch::async, [shared = shared_] { work(shared); }));
-    }
-  }
-  {
-    const std::lock_guard lock(shared_->mutex);
-    std::erase_if(jobs, [this](const GroundJob& job) { return shared_->painting.contains(job.id); });
-    shared_->waiting = std::move(jobs);
-  }
+  if (workers_.empty() && !jobs.empty()) start();
+  std::unique_lock lock(shared_->mutex);
+  std::erase_if(jobs, [this](const GroundJob& job) { return shared_->painting.contains(job.id); });
+  shared_->waiting = std::move(jobs);
+  if (workers_.empty() && !shared_->waiting.empty()) paint(*shared_, lock);
+  lock.unlock();
   shared_->asked.notify_all();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -36,8 +37,8 @@ struct PaintedGround {
   bool is_painted = true;  ///< false: there was no memory
 };
 
-/// Threads that paint pictures of the ground, begun by the first job. The destructor stops them and does not wait.
-/// thread: main
+/// Threads that paint pictures of the ground, begun by the first job. If the system has no thread left, each ask()
+/// paints one picture. The destructor stops the threads and does not wait. thread: main
 class GroundPainter {
  public:
   explicit GroundPainter(std::shared_ptr<ArrivalBell> bell);
@@ -53,6 +54,8 @@ class GroundPainter {
 
  private:
   struct Shared;
+  void start();
+  static void paint(Shared& shared, std::unique_lock<std::mutex>& lock);
   static void work(const std::shared_ptr<Shared>& shared);
   std::shared_ptr<Shared> shared_;
   std::vector<std::future<void>> workers_;

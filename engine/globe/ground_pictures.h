@@ -24,7 +24,9 @@ struct ViewGround {
   };
   GroundFrame frame;
   PatchGround gpu;
-  std::vector<Want> wants;  ///< pictures that the last frame needs and that are not there or out of date
+  std::vector<Want> wants;    ///< pictures that the last frame needs and that are not there or out of date
+  std::uint64_t planned = 0;  ///< number of the last GroundPictures::plan(); 0: none
+  int coarser = 0;            ///< steps by which pictures are coarser for lack of room
 };
 
 /// A view's patches, for GroundPictures::plan().
@@ -34,7 +36,6 @@ struct GroundView {
   const std::vector<SelectedPatch>& patches;
   bool has_relief = false;
   double clearance_m = 0.0;  ///< least distance of the ground from the eye
-  std::uint64_t frame = 0;
 };
 
 /// The pictures of what lies on the ground: those that views need, at about a texel a pixel. Workers paint them. Until
@@ -54,11 +55,11 @@ class GroundPictures {
   /// True if nothing lies on the ground.
   [[nodiscard]] bool empty() const { return layers_.empty(); }
   /// Uploads the pictures that workers have painted. Returns their number.
-  std::size_t take_painted(std::uint64_t frame);
+  std::size_t take_painted();
   [[nodiscard]] bool has_news() const { return painter_.has_news(); }
   /// Decides what a frame of a view shows.
   void plan(const GroundView& view, ViewGround& out);
-  /// Lets workers paint what views want.
+  /// Lets workers paint what views want. Views that have not been planned for long do not count.
   void ask(const std::vector<const ViewGround*>& views);
   [[nodiscard]] std::size_t bytes() const { return textures_.bytes(); }
 
@@ -68,8 +69,11 @@ class GroundPictures {
     bool made = false;
     float reach_px = 0.0F;
     double stretch = 0.0;
-    std::uint64_t revision = 0, changed = 0, needed = 0;  ///< content; last change under it; last frame
-    [[nodiscard]] bool is_stale() const { return changed > revision; }
+    std::uint64_t revision = 0, changed = 0;  ///< content; last change under it
+    std::uint64_t needed = 0, shown = 0;      ///< last plan that needs it; that shows it, perhaps in place of another
+    [[nodiscard]] bool serves(double least_stretch) const {
+      return made && changed <= revision && stretch >= least_stretch;
+    }
   };
   using Boxes = std::array<FaceBox, kCubeFaces>;
   struct Layer {
@@ -83,14 +87,19 @@ class GroundPictures {
   void mark(const Boxes& boxes);
   [[nodiscard]] bool meets(const PatchId& id);
   [[nodiscard]] GroundJob job(const ViewGround::Want& want) const;
-  bool evict(std::uint64_t frame);
+  [[nodiscard]] bool is_needed(const Entry& entry) const { return entry.needed + turns(views_) > plans_; }
+  /// Plans of all views in which a view that is drawn has one.
+  [[nodiscard]] static std::size_t turns(std::size_t views) { return views < 2 ? 1 : 4 * views; }
+  bool put(const GroundPicture& picture, Entry& entry);
+  bool evict();
 
   GroundTextures textures_;
   GroundPainter painter_;
   std::vector<Layer> layers_;
   std::unordered_map<PatchId, Entry, PatchIdHash> entries_;
   std::unordered_map<PatchId, bool, PatchIdHash> meets_;  ///< answers since the last change
-  std::uint64_t revision_ = 1;
+  std::uint64_t revision_ = 1, plans_ = 0;
+  std::size_t views_ = 1;  ///< views that share the room
 };
 
 }  // namespace terrella

@@ -94,6 +94,31 @@ const AreaCase kAreas[] = {
     {"tilted to 80 degrees", {ring_of({{8.49, 47.5}, {8.51, 47.501}, {8.505, 47.53}})}, 47.495, 8.5, 500.0, -10.0},
 };
 
+// 32 MiB have room for nine pictures, and a view to the horizon wants hundreds.
+TEST_F(GroundPicturesTest, WithLittleRoomTheyAreCoarserAndWhole) {
+  constexpr Viewport kWide{640, 480};
+  globe_->set_budget({.gpu_bytes = 32U << 20,
+                      .upload_bytes_per_frame = 8U << 20,
+                      .upload_time_per_frame = {},
+                      .relief_meshes_per_frame = 1});
+  const PolygonObject area{.rings = {ring_of({{-40, 10}, {60, 10}, {60, 80}, {-40, 80}})}, .fill = kInk};
+  ASSERT_TRUE(globe_->add_objects({.polygons = {area}}));
+  for (const auto& [height_m, pitch_deg] : {std::pair{1.0e6, -90.0}, {2.0e5, -10.0}, {3.0e3, -10.0}}) {
+    globe_->set_camera(camera_at(47.0, 8.5, height_m, 0.0, pitch_deg));
+    settle(*globe_, kWide);
+    const Picture shot = picture();
+    int bare = 0, inked = 0;
+    for (int y = 0; y < kWide.height_px; ++y) {
+      for (int x = 0; x < kWide.width_px; ++x) {
+        bare += shot.at(x, y)[1] > kGround[1] / 2 ? 1 : 0;
+        inked += ink(shot, x, y) > 0.5 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(bare, 0) << height_m;
+    EXPECT_GT(inked, kWide.width_px * kWide.height_px / 4) << height_m;
+  }
+}
+
 // A border that is off by half a pixel changes the covered part of a pixel by a half; at a slant by a pixel.
 TEST_F(GroundPicturesTest, AreasCoverThePartOfAPixelWhoseRaysMeetThem) {
   const LayerId layer = *globe_->add_objects({});

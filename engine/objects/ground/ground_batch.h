@@ -22,13 +22,14 @@ struct GroundChunk {
   static constexpr std::size_t kMost = 64;
   std::array<FaceBox, kCubeFaces> boxes;  ///< empty: none lies on the face
   std::vector<GroundObject> objects;
+  bool lent = false;  ///< a worker may read the rest. thread: main
   void add_box(const GroundShape& shape) {
     for (const GroundPart& part : shape.parts) boxes[static_cast<std::size_t>(part.face)].add(part.box);
   }
 };
 
-/// The objects of a layer that lie on the ground, in the layer's order. Workers share the chunks, so a change of a
-/// chunk that is shared makes another. thread: any, but one call at a time
+/// The objects of a layer that lie on the ground, in the layer's order. A change of a chunk that was lent to workers
+/// makes another. thread: any, but one call at a time
 class GroundBatch {
  public:
   static constexpr std::uint32_t kNone = ~0U;
@@ -64,7 +65,13 @@ class GroundBatch {
  private:
   GroundChunk& own(std::uint32_t place) {
     std::shared_ptr<GroundChunk>& chunk = chunks_[place / GroundChunk::kMost];
-    if (chunk.use_count() > 1) chunk = std::make_shared<GroundChunk>(*chunk);
+    if (!chunk->lent) return *chunk;
+    auto copy = std::make_shared<GroundChunk>();
+    copy->objects = chunk->objects;
+    for (const GroundObject& object : copy->objects) {
+      if (object.shape) copy->add_box(*object.shape);
+    }
+    chunk = std::move(copy);
     return *chunk;
   }
   void note(const GroundObject& object) {

@@ -43,18 +43,20 @@ std::size_t GroundTextures::bytes() const {
 }
 
 int GroundTextures::capacity() const {
-  return static_cast<int>(std::max<std::size_t>(1, budget_bytes_ / (slot_bytes(fill) + slot_bytes(line))));
+  const std::size_t fit = std::max<std::size_t>(1, budget_bytes_ / (slot_bytes(fill) + slot_bytes(line)));
+  return static_cast<int>(std::min(fit, static_cast<std::size_t>(most_slots_)));
 }
 
-// Takes as many slots as there were, or as many as the budget has room for.
+// Takes half as many slots as there were.
 bool GroundTextures::grow(int plane) {
   Plane& at = planes_[static_cast<std::size_t>(plane)];
-  const std::size_t held = bytes(), room = (budget_bytes_ - std::min(held, budget_bytes_)) / slot_bytes(plane);
-  const int more =
-      static_cast<int>(std::min<std::size_t>(room, std::size_t(std::max(kFirstGroundSlots, at.slots / 2))));
-  if (more == 0) return false;
+  const int more = std::min(capacity() - at.slots, std::max(kFirstGroundSlots, at.slots / 2));
+  if (more <= 0) return false;
   gl::Texture larger = make(plane, at.slots + more);
-  if (!larger) return false;
+  if (!larger) {
+    most_slots_ = std::max(1, at.slots);
+    return false;
+  }
   for (int k = 0; k < mips_of(plane) && at.slots > 0; ++k) {
     glCopyImageSubData(at.texture.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0, 0, larger.name(), GL_TEXTURE_2D_ARRAY, k, 0, 0,
                        0, kSide_px >> k, kSide_px >> k, at.slots);

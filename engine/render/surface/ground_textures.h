@@ -11,12 +11,17 @@
 
 namespace terrella {
 
+/// GroundFrame::cells has 16 bits for a slot.
+inline constexpr int kMostGroundSlots = 0xFFFF;
+
 /// Slots of a picture of the ground; -1: it has no such part.
 struct GroundSlots {
   int fill = -1, line = -1;
+  [[nodiscard]] bool any() const { return fill >= 0 || line >= 0; }
 };
 
-/// The pictures of what lies on the ground, in the slots of two array textures, which grow up to a budget. thread: main
+/// The pictures of what lies on the ground, in the slots of two array textures. Each texture grows up to capacity().
+/// thread: main
 class GroundTextures {
  public:
   explicit GroundTextures(std::size_t budget_bytes) : budget_bytes_(budget_bytes) {}
@@ -25,10 +30,14 @@ class GroundTextures {
   /// are then in `slots`.
   bool put(const GroundPicture& picture, GroundSlots& slots);
   void release(GroundSlots& slots);
-  void set_budget(std::size_t bytes) { budget_bytes_ = bytes; }
+  /// Asks the driver again for memory that it has refused.
+  void set_budget(std::size_t bytes) {
+    budget_bytes_ = bytes;
+    most_slots_ = kMostGroundSlots;
+  }
 
   [[nodiscard]] std::size_t bytes() const;
-  /// Pictures with both parts that fit in the budget.
+  /// Pictures with both parts that fit in the budget, and on the GPU.
   [[nodiscard]] int capacity() const;
   /// Binds the textures to two units.
   void bind(GLuint fill_unit, GLuint line_unit) const;
@@ -45,6 +54,7 @@ class GroundTextures {
   bool take(int plane, int& slot);
 
   std::size_t budget_bytes_;
+  int most_slots_ = kMostGroundSlots;
   std::array<Plane, 2> planes_;
   gl::Sampler fill_sampler_, line_sampler_;
 };

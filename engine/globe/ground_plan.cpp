@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "globe/ground_pictures.h"
+#include "surface/view_planes.h"
+
+// The choice of pictures for the patches of a view.
+namespace terrella {
+namespace {
+
+/// A patch is shown by at most 2^this pictures a side.
+constexpr int kMostDepth = 6;
+constexpr int kMostHalvings = 12;  // GroundFrame::cells
+/// Pictures of larger squares would lack lines of other faces within their reach.
+constexpr int kLeastLevel = 1;
+/// Slopes of relief stretch pixels further.
+constexpr double kLeastStretch = 2.0, kLeastStretchOnRelief = 8.0, kMostStretch = 64.0;
+/// Pixels of ground whose normal has a smaller cosine towards the eye are clearly longer than wide.
+constexpr double kSlanted = 0.55;
+/// Texels may be this many pixels wide; those of pictures of squares larger than patches less, since slopes stretch
+/// them.
+constexpr double kMostTexel_px = 1.4, kMostLargerTexel_px = 0.7, kMostLargerTexelOnRelief_px = 0.1;
+constexpr double kCoarserStep = 1.5;
+constexpr int kMostCoarser = 16;
+
+double stretch_of(double wish, bool has_relief) {
+  double least = has_relief ? kLeastStretchOnRelief : kLeastStretch;
+  while (least < std::min(kMostStretch, wish)) least *= 2.0;
+  return least;
+}
+
+PatchId ancestor(const PatchId& id, int up) {
+  return {id.face, id.level - up, id.x >> unsigned(up), id.y >> unsigned(up)};
+}
+
+}  // namespace
+
+/// Plans one view: a patch has the pictures of its own square or of its parts, or the picture of a larger square.
+class GroundPictures::Planner {
+ public:
+  Planner(GroundPictures& pictures, const GroundView& view, int coarser)
+      : pictures_(pictures),
+        view_(view),
+        coarser_(std::pow(kCoarserStep, coarser)),
+        room_(static_cast<std::size_t>(pictures.textures_.capacity()) / std::max<std::size_t>(1, pictures.views_)),
+        planes_(view_planes(view.view)) {}
+
+  /// True if the pictures that the view needs are not more than there is room for.
+  [[nodiscard]] bool has_room() {
+    for (const SelectedPatch& patch : view_.patches) {
+      patch_ = &patch;
+      visit(patch.node->id, 0, nullptr);
+    }
+    return needs_.size() <= room_;
+  }
+
+  void add(const SelectedPatch& patch, ViewGround& out) {
+    leaves_.clear();
+    deepest_ = 0;
+    slanted_ = false;
+    patch_ = &patch;
+    visit(patch.node->id, 0, &out.frame);
+    glm::uvec4 window(0);
+    if (!leaves_.empty()) {
+      window = {out.frame.cells.size(), deepest_, 0, 0};
+      const auto side = std::size_t{1} << static_cast<unsigned>(deepest_);
+      out.frame.cells.resize(out.frame.cells.size() + side * side, {0xFFFFFFFFU, 0U});
+      for (const Leaf& leaf : leaves_) put(leaf, window, side, out.frame.cells.data() + window.x);
+      if (window.z != 0 && slanted_) window.z |= 4U;
+    }
+    out.frame.windows.push_back(window);
+  }
+
+  /// Pictures that the patches need and that are not there or out of date.
+  void add_wants(std::vector<ViewGround::Want>& wants) const {
+    for (const auto& [id, need] : needs_) {
+      const auto at = pictures_.entries_.find(id);
+      if (at == pictures_.entries_.end()) continue;  // there is no room for it
+      if (!at->second.serves(need.stretch)) wants.push_back({id, need.stretch, need.urgent});
+    }
+  }
+
+ private:
+  /// A part of the patch, and the picture that shows it.
+  struct Leaf {
+    PatchId id;
+    int depth = 0;
+    const Entry* entry = nullptr;
+    int up = 0;  ///< levels from `id` up to the picture's square
+  };
+  struct Need {
+    double stretch = 1.0;
+    bool urgent = false;
+  };
+  /// The ground of a square, as seen by the eye.
+  struct Sight {
+    BoundingSphere sphere;
+    glm::dvec3 up{0.0}, to_eye{0.0};
+    double away_m = 0.0, side_m = 0.0, pixel_m = 0.0;
+    /// Pixels that a texel of a square some levels above is wide.
+    [[nodiscard]] double texel_px(int levels) const {
+      return std::ldexp(side_m, levels) / (GroundPicture::kInner_px * pixel_m);
+    }
+  };
+
+  // The sphere has its centre in the middle of the square and goes through the farthest corner.
+  [[nodiscard]] Sight sight_of(const PatchId& id) const {
+    const PatchRelief& relief = patch_->node->relief;
+    const Ellipsoid& e = view_.tree.ellipsoid();
+    Sight s;
+    s.up = patch_point(id, 1, 1, 2).xyz;
+    s.sphere.center_m = e.position(EcefDir{s.up}, relief.middle_m).xyz_m;
+    double flat_m = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const glm::dvec3 corner = e.position(patch_point(id, k % 2, k / 2, 1), relief.middle_m).xyz_m;
+      flat_m = std::max(flat_m, glm::distance(corner, s.sphere.center_m));
+    }
+    s.sphere.radius_m = flat_m + relief.half_m;
+    s.to_eye = view_.view.eye.xyz_m - s.sphere.center_m;
+    s.away_m = glm::length(s.to_eye);
+    // An eye among the heights of relief is in the spheres of many squares.
+    const double least_m = s.away_m > 1.5 * flat_m ? 0.2 * s.away_m : view_.clearance_m;
+    const double nearest_m = std::max(s.away_m - flat_m - std::min(relief.half_m, 0.5 * s.away_m), least_m);
+    s.pixel_m = nearest_m / view_.view.pixels_per_radian() * coarser_;
+    s.side_m = std::sqrt(2.0) * flat_m;
+    return s;
+  }
+
+  // A null frame: only counts what is needed.
+  void visit(const PatchId& id, int depth, GroundFrame* out) {
+    if (needs_.size() > room_ || !pictures_.meets(id)) return;
+    const Sight sight = sight_of(id);
+    if (depth > 0 && classify(planes_, view_.view, sight.sphere) < 0) return;
+    if (sight.texel_px(0) > kMostTexel_px && depth < kMostDepth && id.level < kMaxPatchLevel) {
+      for (const PatchId& child : children(id)) visit(child, depth + 1, out);
+      return;
+    }
+    const double most_px = view_.has_relief ? kMostLargerTexelOnRelief_px : kMostLargerTexel_px;
+    PatchId square = id;
+    int up = 0;
+    while (depth == 0 && up < kMostHalvings && square.level > kLeastLevel && sight.texel_px(up + 1) <= most_px) {
+      square = parent(square);
+      ++up;
+    }
+    Need& need = needs_[square];
+    if (out == nullptr || needs_.size() > room_) return;
+    const double cosine = std::abs(glm::dot(sight.up, sight.to_eye)) / sight.away_m;
+    slanted_ = slanted_ || cosine < kSlanted || view_.has_relief;
+    // Texels under a pixel, where it is longest.
+    const double texels = GroundPicture::kInner_px * sight.pixel_m / std::ldexp(sight.side_m, up);
+    const double wish = 1.25 * std::max(texels, 1.0) / std::max(cosine, 1e-3);
+    need.stretch = std::max(need.stretch, stretch_of(wish, view_.has_relief));
+    Entry& entry = pictures_.entries_[square];
+    entry.needed = entry.shown = pictures_.plans_;
+    if (entry.made) return take({id, depth, &entry, up});
+    const bool shown = show_above(id, depth, 0, up) || show_finer(id, depth) ||
+                       show_above(id, depth, up + 1, kMostHalvings - kMostDepth);
+    need.urgent = need.urgent || !shown;
+  }
+
+  void take(const Leaf& leaf) {
+    deepest_ = std::max(deepest_, leaf.depth);
+    leaves_.push_back(leaf);
+  }
+
+  [[nodiscard]] bool show_finer(const PatchId& id, int depth) {
+    if (depth == kMostDepth || id.level == kMaxPatchLevel) return false;
+    std::array<Entry*, 4> found{};
+    const std::array<PatchId, 4> parts = children(id);
+    bool any = false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto at = pictures_.entries_.find(parts[k]);
+      if (at != pictures_.entries_.end() && at->second.made) found[k] = &at->second, any = true;
+      if (found[k] == nullptr && pictures_.meets(parts[k]) && !any) return false;
+    }
+    if (!any) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (found[k] == nullptr) continue;
+      found[k]->shown = pictures_.plans_;
+      take({parts[k], depth + 1, found[k], 0});
+    }
+    return true;
+  }
+
+  // The finest picture, `from` to `to` levels above a square.
+  [[nodiscard]] bool show_above(const PatchId& id, int depth, int from, int to) {
+    for (int up = from; up <= std::min(to, id.level); ++up) {
+      const auto at = pictures_.entries_.find(ancestor(id, up));
+      if (at == pictures_.entries_.end() || !at->second.made) continue;
+      at->second.shown = pictures_.plans_;
+      take({id, depth, &at->second, up});
+      return true;
+    }
+    return false;
+  }
+
+  void put(const Leaf& leaf, glm::uvec4& window, std::size_t side, glm::uvec2* cells) const {
+    const GroundSlots& slots = leaf.entry->slots;
+    if (!slots.any()) return;
+    window.z |= (slots.fill >= 0 ? 1U : 0U) | (slots.line >= 0 ? 2U : 0U);
+    const auto more = static_cast<unsigned>(deepest_ - leaf.depth), up = static_cast<unsigned>(leaf.up);
+    const std::uint32_t across = 1U << more, below = (1U << up) - 1U;
+    const std::uint32_t x0 = (leaf.id.x << more) - (patch_->node->id.x << static_cast<unsigned>(deepest_)),
+                        y0 = (leaf.id.y << more) - (patch_->node->id.y << static_cast<unsigned>(deepest_));
+    const auto word = static_cast<std::uint32_t>(slots.fill & 0xFFFF) | static_cast<std::uint32_t>(slots.line) << 16U;
+    const auto reach = static_cast<std::uint32_t>(std::lround(std::log2(leaf.entry->reach_px))) - 2U;
+    for (std::uint32_t y = 0; y < across; ++y) {
+      for (std::uint32_t x = 0; x < across; ++x) {
+        const std::uint32_t column = ((leaf.id.x & below) << more) + x, row = ((leaf.id.y & below) << more) + y;
+        cells[(y0 + y) * side + x0 + x] = {word, (more + up) | column << 4U | row << 16U | reach << 28U};
+      }
+    }
+  }
+
+  GroundPictures& pictures_;
+  const GroundView& view_;
+  double coarser_;
+  std::size_t room_;
+  ViewPlanes planes_;
+  const SelectedPatch* patch_ = nullptr;
+  std::vector<Leaf> leaves_;
+  int deepest_ = 0;
+  bool slanted_ = false;
+  std::map<PatchId, Need> needs_;
+};
+
+// A view that needs more pictures than there is room for takes coarser ones.
+void GroundPictures::plan(const GroundView& view, ViewGround& out) {
+  out.frame.textures = &textures_;
+  out.frame.windows.clear();
+  out.frame.cells.clear();
+  out.wants.clear();
+  out.planned = ++plans_;
+  const auto has_room = [&](int coarser) { return Planner(*this, view, coarser).has_room(); };
+  while (out.coarser < kMostCoarser && !has_room(out.coarser)) ++out.coarser;
+  while (out.coarser > 0 && has_room(out.coarser - 1)) --out.coarser;
+  Planner planner(*this, view, out.coarser);
+  for (const SelectedPatch& patch : view.patches) planner.add(patch, out);
+  planner.add_wants(out.wants);
+}
+
+}  // namespace terrella
