@@ -98,8 +98,7 @@ TEST(OpenTileSet, SaysWhatWouldBeAccepted) {
   const ScratchFolder folder;
   expect_says(error_of(folder / "nowhere"), {"nowhere", "no such file"});
   fs::create_directory(folder / "empty");
-  expect_says(error_of(folder / "empty"),
-              {"the directory is empty", "tileset.json", "tilemapresource.xml", "‹cut›"});
+  expect_says(error_of(folder / "empty"), {"the directory is empty", "tileset.json", "tilemapresource.xml", "‹cut›"});
   test::write_text(folder / "notes/readme.txt", "hello");
   expect_says(error_of(folder / "notes"), {"holds no tileset.json", "tilemapresource.xml"});
   expect_says(error_of(folder / "notes/readme.txt"), {"readme.txt", "neither a picture nor a tile set", "GeoPackage"});
