@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include "apps/open_scene/bounds_view.h"
@@ -97,7 +96,8 @@ Status check_drawing_memory(Viewport size) {
 /// The layers of numbers, the highest first.
 std::vector<LegendItem> legend_of(const OpenedScene& scene) {
   std::vector<LegendItem> items;
-  for (const SceneLayer& layer : scene.images | std::views::reverse) {
+  for (auto at = scene.images.rbegin(); at != scene.images.rend(); ++at) {
+    const SceneLayer& layer = *at;
     const auto look = layer.numbers ? scene.globe->look(layer.id) : Result<ImageLook>(Error{});
     if (!look || !look->numbers) continue;
     const std::string name = std::filesystem::path(layer.address.without_query()).stem().string();
