@@ -39,7 +39,8 @@ struct FrameStats {
   /// more (65,536 tiles at most), or if the driver has refused memory; the globe then goes on with fewer tiles. At
   /// least 16 tiles for each layer.
   std::size_t gpu_bytes_granted = 0;
-  /// The driver has refused memory for texture slots, or for an object layer, which is then not drawn.
+  /// The driver has refused memory for texture slots, for pictures of the ground, or for an object layer, which is
+  /// then not drawn.
   bool gpu_memory_refused = false;
   std::size_t height_bytes = 0;  ///< elevation tiles
   std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not

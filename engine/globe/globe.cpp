@@ -189,6 +189,7 @@ void Globe::set_budget(const GlobeBudget& budget) {
   impl_->options.upload_time_per_frame = budget.upload_time_per_frame;
   impl_->options.relief_meshes_per_frame = budget.relief_meshes_per_frame;
   impl_->share_gpu();
+  if (impl_->ground_pictures) impl_->ground_pictures->set_budget(impl_->ground_bytes());
   impl_->restore_detail();
 }
 

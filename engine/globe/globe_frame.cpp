@@ -158,7 +158,10 @@ void GlobeView::Impl::count() {
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
-  if (globe->ground_pictures) stats.gpu_bytes += globe->ground_pictures->bytes();
+  if (globe->ground_pictures) {
+    stats.gpu_bytes += globe->ground_pictures->bytes();
+    stats.gpu_memory_refused = stats.gpu_memory_refused || globe->ground_pictures->memory_refused();
+  }
   stats.height_bytes = globe->heights ? globe->relief()->bytes() : 0;
   for (const LayerView* layer : stack) {
     stats.gpu_bytes += layer->layer().gpu_bytes();

@@ -45,6 +45,7 @@ struct Globe::Impl {
   Status show_layers();
   void take_cuts();      ///< takes the objects that workers have cut, and lets objects follow the ground
   void follow_ground();  ///< takes changes of what lies on the ground
+  [[nodiscard]] std::size_t ground_bytes() const;  ///< budget of the pictures of the ground
   [[nodiscard]] bool has_ground() const { return ground_pictures && !ground_pictures->empty(); }
   [[nodiscard]] std::shared_ptr<const Relief> shared_relief() const { return heights ? heights->relief() : nullptr; }
   [[nodiscard]] Relief* relief() const { return heights ? heights->relief().get() : nullptr; }

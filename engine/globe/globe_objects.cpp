@@ -147,6 +147,8 @@ void Globe::Impl::take_cuts() {
   follow_ground();
 }
 
+std::size_t Globe::Impl::ground_bytes() const { return options.gpu_bytes / kGroundShare; }
+
 void Globe::Impl::follow_ground() {
   std::vector<DrawnLayer> layers;
   for (ObjectLayer& layer : objects) {
@@ -155,7 +157,7 @@ void Globe::Impl::follow_ground() {
   const bool any =
       std::ranges::any_of(layers, [](const DrawnLayer& layer) { return !layer.objects->batches().ground.empty(); });
   if (!ground_pictures && any) {
-    ground_pictures = std::make_unique<GroundPictures>(options.gpu_bytes / kGroundShare, bell);
+    ground_pictures = std::make_unique<GroundPictures>(ground_bytes(), bell);
   }
   if (ground_pictures && ground_pictures->follow(layers)) changed = true;
 }

@@ -13,6 +13,14 @@ constexpr std::size_t kManyChanges = 4096;
 
 }  // namespace
 
+void GroundPictures::set_budget(std::size_t bytes) {
+  if (textures_.set_budget(bytes)) return;
+  for (auto& [id, entry] : entries_) {
+    entry.slots = {};
+    entry.made = false;
+  }
+}
+
 void GroundPictures::mark(CubeFace face, const FaceBox& box) {
   if (box.empty()) return;
   for (auto& [id, entry] : entries_) {

@@ -49,7 +49,8 @@ class GroundPictures {
   GroundPictures(std::size_t budget_bytes, std::shared_ptr<ArrivalBell> bell)
       : textures_(budget_bytes), painter_(std::move(bell)) {}
 
-  void set_budget(std::size_t bytes) { textures_.set_budget(bytes); }
+  /// Sets the budget of textures. Pictures that need more are painted again.
+  void set_budget(std::size_t bytes);
   /// Takes the layers that are drawn, the lowest first, and their changes. Returns true if anything has changed.
   bool follow(const std::vector<DrawnLayer>& layers);
   /// True if nothing lies on the ground.
@@ -62,6 +63,7 @@ class GroundPictures {
   /// Lets workers paint what views want. Views that have not been planned for long do not count.
   void ask(const std::vector<const ViewGround*>& views);
   [[nodiscard]] std::size_t bytes() const { return textures_.bytes(); }
+  [[nodiscard]] bool memory_refused() const { return textures_.memory_refused(); }
 
  private:
   struct Entry {

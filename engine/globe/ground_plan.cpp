@@ -76,9 +76,7 @@ class GroundPictures::Planner {
   /// Pictures that the patches need and that are not there or out of date.
   void add_wants(std::vector<ViewGround::Want>& wants) const {
     for (const auto& [id, need] : needs_) {
-      const auto at = pictures_.entries_.find(id);
-      if (at == pictures_.entries_.end()) continue;  // there is no room for it
-      if (!at->second.serves(need.stretch)) wants.push_back({id, need.stretch, need.urgent});
+      if (!pictures_.entries_.at(id).serves(need.stretch)) wants.push_back({id, need.stretch, need.urgent});
     }
   }
 
@@ -144,8 +142,13 @@ class GroundPictures::Planner {
       square = parent(square);
       ++up;
     }
-    Need& need = needs_[square];
-    if (out == nullptr || needs_.size() > room_) return;
+    const auto place = needs_.try_emplace(square).first;
+    if (out == nullptr) return;
+    if (needs_.size() > room_) {
+      needs_.erase(place);
+      return;
+    }
+    Need& need = place->second;
     const double cosine = std::abs(glm::dot(sight.up, sight.to_eye)) / sight.away_m;
     slanted_ = slanted_ || cosine < kSlanted || view_.has_relief;
     // Texels under a pixel, where it is longest.

@@ -225,6 +225,24 @@ TEST_F(GpuMemory, AnObjectLayerWithoutMemoryIsLeftOutUntilThereIsSome) {
   EXPECT_EQ(picture().at(128, 128), (Color{230, 60, 50}));
 }
 
+TEST_F(GpuMemory, AnAreaOnTheGroundWithoutMemoryIsLeftOutUntilTheBudgetIsSetAgain) {
+  const auto globe = make_globe(unlit_options(), many_tiles());
+  EXPECT_FALSE(settled(*globe).gpu_memory_refused);
+  PolygonObject area{.fill = {230, 0, 0}};
+  for (const auto& [lat, lon] : {std::pair{0, 10}, {0, 30}, {20, 30}, {20, 10}}) {
+    area.rings.resize(1);
+    area.rings[0].push_back({.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)});
+  }
+  ASSERT_TRUE(globe->add_objects({.polygons = {area}}));
+  {
+    const SmallGpu small(0, 16384);
+    EXPECT_TRUE(settled(*globe).gpu_memory_refused);
+  }
+  set_bytes(*globe, std::size_t{512} << 20);
+  EXPECT_FALSE(settle(*globe, kFull).gpu_memory_refused);
+  EXPECT_EQ(picture().at(128, 128), (Color{230, 0, 0}));
+}
+
 TEST_F(GpuMemory, AModelWithoutMemoryIsLeftOut) {
   const auto globe = make_globe(unlit_options(), many_tiles());
   EXPECT_FALSE(settled(*globe).gpu_memory_refused);

@@ -12,7 +12,7 @@
 namespace terrella::test {
 namespace {
 
-constexpr Viewport kView{120, 90};
+constexpr Viewport kView{120, 90}, kWide{640, 480};
 constexpr int kRays = 4;  // a side of a pixel
 const Color kGround{0, 160, 0};
 constexpr ObjectColor kInk{240, 0, 0};
@@ -26,6 +26,8 @@ std::vector<Geodetic> ring_of(std::initializer_list<std::pair<double, double>> l
   for (const auto& [lon, lat] : lon_lat) places.push_back(on_map(lat, lon));
   return places;
 }
+
+const PolygonObject kEurope{.rings = {ring_of({{-40, 10}, {60, 10}, {60, 80}, {-40, 80}})}, .fill = kInk};
 
 class GroundPicturesTest : public GlTest {
  protected:
@@ -42,6 +44,24 @@ class GroundPicturesTest : public GlTest {
   void look(double lat_deg, double lon_deg, double height_m, double pitch_deg = -90.0) {
     globe_->set_camera(camera_at(lat_deg, lon_deg, height_m, 0.0, pitch_deg));
     settle(*globe_, kView);
+  }
+  void set_bytes(std::size_t bytes) {
+    globe_->set_budget({.gpu_bytes = bytes,
+                        .upload_bytes_per_frame = 8U << 20,
+                        .upload_time_per_frame = {},
+                        .relief_meshes_per_frame = 1});
+  }
+  /// All ground of a wide picture, a quarter of it at least, has ink.
+  static void expect_all_ink(const Picture& shot) {
+    int bare = 0, inked = 0;
+    for (int y = 0; y < kWide.height_px; ++y) {
+      for (int x = 0; x < kWide.width_px; ++x) {
+        bare += shot.at(x, y)[1] > kGround[1] / 2 ? 1 : 0;
+        inked += ink(shot, x, y) > 0.5 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(bare, 0);
+    EXPECT_GT(inked, kWide.width_px * kWide.height_px / 4);
   }
   /// Part of the ink in a pixel.
   [[nodiscard]] static double ink(const Picture& shot, int x, int y) { return shot.at(x, y)[0] / double(kInk.red); }
@@ -96,27 +116,24 @@ const AreaCase kAreas[] = {
 
 // 32 MiB have room for nine pictures, and a view to the horizon wants hundreds.
 TEST_F(GroundPicturesTest, WithLittleRoomTheyAreCoarserAndWhole) {
-  constexpr Viewport kWide{640, 480};
-  globe_->set_budget({.gpu_bytes = 32U << 20,
-                      .upload_bytes_per_frame = 8U << 20,
-                      .upload_time_per_frame = {},
-                      .relief_meshes_per_frame = 1});
-  const PolygonObject area{.rings = {ring_of({{-40, 10}, {60, 10}, {60, 80}, {-40, 80}})}, .fill = kInk};
-  ASSERT_TRUE(globe_->add_objects({.polygons = {area}}));
+  set_bytes(32U << 20);
+  ASSERT_TRUE(globe_->add_objects({.polygons = {kEurope}}));
   for (const auto& [height_m, pitch_deg] : {std::pair{1.0e6, -90.0}, {2.0e5, -10.0}, {3.0e3, -10.0}}) {
     globe_->set_camera(camera_at(47.0, 8.5, height_m, 0.0, pitch_deg));
     settle(*globe_, kWide);
-    const Picture shot = picture();
-    int bare = 0, inked = 0;
-    for (int y = 0; y < kWide.height_px; ++y) {
-      for (int x = 0; x < kWide.width_px; ++x) {
-        bare += shot.at(x, y)[1] > kGround[1] / 2 ? 1 : 0;
-        inked += ink(shot, x, y) > 0.5 ? 1 : 0;
-      }
-    }
-    EXPECT_EQ(bare, 0) << height_m;
-    EXPECT_GT(inked, kWide.width_px * kWide.height_px / 4) << height_m;
+    expect_all_ink(picture());
   }
+}
+
+TEST_F(GroundPicturesTest, ASmallerBudgetFreesThem) {
+  ASSERT_TRUE(globe_->add_objects({.polygons = {kEurope}}));
+  globe_->set_camera(camera_at(47.0, 8.5, 2.0e5, 0.0, -10.0));
+  const std::size_t before = settle(*globe_, kWide).gpu_bytes;
+  set_bytes(32U << 20);
+  EXPECT_LT(settle(*globe_, kWide).gpu_bytes, before / 2);
+  expect_all_ink(picture());
+  set_bytes(512U << 20);
+  EXPECT_GE(settle(*globe_, kWide).gpu_bytes, before) << "as fine as before";
 }
 
 // A border that is off by half a pixel changes the covered part of a pixel by a half; at a slant by a pixel.

@@ -47,6 +47,14 @@ int GroundTextures::capacity() const {
   return static_cast<int>(std::min(fit, static_cast<std::size_t>(most_slots_)));
 }
 
+bool GroundTextures::set_budget(std::size_t bytes) {
+  budget_bytes_ = bytes;
+  most_slots_ = kMostGroundSlots;
+  if (std::max(planes_[fill].slots, planes_[line].slots) <= capacity()) return true;
+  planes_ = {};
+  return false;
+}
+
 // Takes half as many slots as there were.
 bool GroundTextures::grow(int plane) {
   Plane& at = planes_[static_cast<std::size_t>(plane)];
@@ -54,7 +62,7 @@ bool GroundTextures::grow(int plane) {
   if (more <= 0) return false;
   gl::Texture larger = make(plane, at.slots + more);
   if (!larger) {
-    most_slots_ = std::max(1, at.slots);
+    most_slots_ = at.slots;
     return false;
   }
   for (int k = 0; k < mips_of(plane) && at.slots > 0; ++k) {
@@ -79,10 +87,11 @@ bool GroundTextures::take(int plane, int& slot) {
   return true;
 }
 
+void GroundTextures::give_back(int plane, int& slot) {
+  if (slot >= 0) planes_[static_cast<std::size_t>(plane)].free.push_back(std::exchange(slot, -1));
+}
+
 bool GroundTextures::put(const GroundPicture& picture, GroundSlots& slots) {
-  const auto give_back = [this](int plane, int& slot) {
-    if (slot >= 0) planes_[static_cast<std::size_t>(plane)].free.push_back(std::exchange(slot, -1));
-  };
   if (picture.fill.empty()) give_back(fill, slots.fill);
   if (picture.line.empty()) give_back(line, slots.line);
   if (!picture.fill.empty() && !take(fill, slots.fill)) return false;
@@ -102,10 +111,8 @@ bool GroundTextures::put(const GroundPicture& picture, GroundSlots& slots) {
 }
 
 void GroundTextures::release(GroundSlots& slots) {
-  for (const auto& [plane, slot] :
-       {std::pair(static_cast<int>(fill), &slots.fill), {static_cast<int>(line), &slots.line}}) {
-    if (*slot >= 0) planes_[static_cast<std::size_t>(plane)].free.push_back(std::exchange(*slot, -1));
-  }
+  give_back(fill, slots.fill);
+  give_back(line, slots.line);
 }
 
 void GroundTextures::bind(GLuint fill_unit, GLuint line_unit) const {

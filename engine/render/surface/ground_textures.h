@@ -30,15 +30,14 @@ class GroundTextures {
   /// are then in `slots`.
   bool put(const GroundPicture& picture, GroundSlots& slots);
   void release(GroundSlots& slots);
-  /// Asks the driver again for memory that it has refused.
-  void set_budget(std::size_t bytes) {
-    budget_bytes_ = bytes;
-    most_slots_ = kMostGroundSlots;
-  }
+  /// Sets the budget, and asks the driver again for memory that it has refused. False if the textures were too large:
+  /// all pictures are gone then.
+  [[nodiscard]] bool set_budget(std::size_t bytes);
 
   [[nodiscard]] std::size_t bytes() const;
   /// Pictures with both parts that fit in the budget, and on the GPU.
   [[nodiscard]] int capacity() const;
+  [[nodiscard]] bool memory_refused() const { return most_slots_ < kMostGroundSlots; }  ///< since set_budget()
   /// Binds the textures to two units.
   void bind(GLuint fill_unit, GLuint line_unit) const;
 
@@ -51,6 +50,7 @@ class GroundTextures {
   enum { fill, line };
   [[nodiscard]] gl::Texture make(int plane, int slots) const;
   bool grow(int plane);
+  void give_back(int plane, int& slot);
   bool take(int plane, int& slot);
 
   std::size_t budget_bytes_;
