@@ -65,7 +65,7 @@ void write_result(std::string_view text) {
 }
 
 void write_message(std::string_view text) {
-  std::string shown = printable(shown_message(text));
+  std::string shown = escaped(shown_message(text), "\n");
   if (CapturedConsole::active()) return g_sink.message(shown);
   for (std::size_t end = shown.find('\n'); end < shown.size() - 1; end = shown.find('\n', end + 1)) {
     shown.insert(end + 1, "  ");

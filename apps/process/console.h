@@ -37,8 +37,8 @@ class CapturedConsole {
 
 /// Writes printable(text) to standard output.
 void write_result(std::string_view text);
-/// Writes printable(text) to standard error, with addresses redacted. All lines but the first are indented, so that a
-/// line break in a file's name cannot fake a message of the program.
+/// Writes printable(text) to standard error, with addresses redacted and tabs escaped. All lines but the first are
+/// indented, so that a line break in a file's name cannot fake a message of the program.
 void write_message(std::string_view text);
 
 /// Print a result to standard output, or a message to standard error. Every subcommand prints through these two

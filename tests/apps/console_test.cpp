@@ -31,6 +31,14 @@ TEST(Printable, ReplacesWhatIsNotUtf8) {
   EXPECT_EQ(printable("\xe2\x80"), "\uFFFD\uFFFD");
 }
 
+TEST(Messages, HaveNoTabs) {
+  std::string told;
+  const CapturedConsole captured(
+      {.result = [](const std::string&) {}, .message = [&](const std::string& t) { told = t; }});
+  write_message("list.txt: a\tb.tif: no such file\n");
+  EXPECT_EQ(told, "list.txt: a\\u0009b.tif: no such file\n");
+}
+
 TEST(OptionNames, StandForTheSettingsOfLibraries) {
   EXPECT_EQ(with_option_names("in.tif: say ‹crs› CRS and ‹tile_px›"), "in.tif: say --crs CRS and --tile-size");
   for (const char* text : {"", "a ‹crs", "‹unknown› and ›", "‹‹", "--crs"}) EXPECT_EQ(with_option_names(text), text);
