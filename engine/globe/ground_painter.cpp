@@ -41,16 +41,17 @@ GroundPainter::~GroundPainter() {
 }
 
 // Paints the first picture that waits. The lock is held before and after.
-void GroundPainter::paint(Shared& shared, std::unique_lock<std::mutex>& lock) {
+void GroundPainter::paint(Shared& shared, std::unique_lock<std::mutex>& lock, GroundCanvas& canvas) {
   const GroundJob job = std::move(shared.waiting.front());
   shared.waiting.pop_front();
   shared.painting.insert(job.id);
   lock.unlock();
   PaintedGround done{job.id, job.stretch, job.revision, {}};
   try {
-    done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared.stop);
+    done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared.stop, canvas);
   } catch (const std::bad_alloc&) {
     done.is_painted = false;
+    canvas.forget();
   }
   lock.lock();
   if (shared.stop) return;
@@ -61,11 +62,12 @@ void GroundPainter::paint(Shared& shared, std::unique_lock<std::mutex>& lock) {
 }
 
 void GroundPainter::work(const std::shared_ptr<Shared>& shared) {
+  GroundCanvas canvas;
   std::unique_lock lock(shared->mutex);
   for (;;) {
     shared->asked.wait(lock, [&] { return shared->stop || !shared->waiting.empty(); });
     if (shared->stop) return;
-    paint(*shared, lock);
+    paint(*shared, lock, canvas);
   }
 }
 
@@ -84,7 +86,10 @@ void GroundPainter::ask(std::deque<GroundJob> jobs) {
   std::unique_lock lock(shared_->mutex);
   std::erase_if(jobs, [this](const GroundJob& job) { return shared_->painting.contains(job.id); });
   shared_->waiting = std::move(jobs);
-  if (workers_.empty() && !shared_->waiting.empty()) paint(*shared_, lock);
+  if (workers_.empty() && !shared_->waiting.empty()) {
+    GroundCanvas canvas;
+    paint(*shared_, lock, canvas);
+  }
   lock.unlock();
   shared_->asked.notify_all();
 }

@@ -55,7 +55,7 @@ class GroundPainter {
  private:
   struct Shared;
   void start();
-  static void paint(Shared& shared, std::unique_lock<std::mutex>& lock);
+  static void paint(Shared& shared, std::unique_lock<std::mutex>& lock, GroundCanvas& canvas);
   static void work(const std::shared_ptr<Shared>& shared);
   std::shared_ptr<Shared> shared_;
   std::vector<std::future<void>> workers_;

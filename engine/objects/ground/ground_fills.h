@@ -13,12 +13,24 @@
 namespace terrella {
 
 /// Areas in 4 · 4 samples a texel. A sample is in an area or not, so areas that share an edge part the samples between
-/// them. Corners are rounded to eighths of a texel, alike in all areas.
+/// them. Corners are rounded to eighths of a texel, alike in all areas. A texel whose samples are alike has one colour.
 class GroundFills {
  public:
   static constexpr int kSamples = 4, kAcross = GroundPicture::kSide_px * kSamples, kWords = kAcross / 64;
 
-  explicit GroundFills(const FaceSquare& square) : edges_(square, 0.0) {}
+  using Line = std::array<std::uint64_t, kWords>;  ///< a bit a sample
+  using Samples = std::array<std::uint32_t, std::size_t{kSamples} * kSamples>;
+  struct Memory {
+    std::vector<Line> toggles = std::vector<Line>(kAcross);  ///< all 0 between two pictures
+    std::vector<std::uint32_t> colors;                       ///< of texels whose samples are alike
+    std::vector<std::uint32_t> parted;                       ///< of the others: place in samples, counted from 1
+    std::vector<Samples> samples;
+  };
+
+  GroundFills(const FaceSquare& square, Memory& memory) : edges_(square, 0.0), memory_(memory) {
+    memory_.colors.clear();
+    memory_.samples.clear();
+  }
 
   void add(const GroundPart& part, ObjectColor color) {
     low_ = kAcross;
@@ -28,7 +40,7 @@ class GroundFills {
     }
     if (low_ <= high_) blend(color);
   }
-  [[nodiscard]] bool any() const { return !samples_.empty(); }
+  [[nodiscard]] bool any() const { return !memory_.colors.empty(); }
   /// The means of the samples, with all mips.
   [[nodiscard]] std::vector<std::uint32_t> means() const;
 
@@ -70,17 +82,17 @@ class GroundFills {
       const double column = std::ceil(0.5 * (x - 1.0));
       if (column >= kAcross) continue;
       const auto at = static_cast<std::uint32_t>(std::max(0.0, column));
-      toggles_[static_cast<std::size_t>(line)][at / 64] ^= std::uint64_t{1} << (at % 64);
+      memory_.toggles[static_cast<std::size_t>(line)][at / 64] ^= std::uint64_t{1} << (at % 64);
     }
   }
   static std::int64_t floor_half(std::int64_t v) { return v >= 0 ? v / 2 : -((1 - v) / 2); }
 
   void blend(ObjectColor color);
+  void blend(std::uint32_t ink, bool opaque, std::uint32_t covered, std::size_t texel);
 
   GroundEdges edges_;
   int low_ = 0, high_ = -1;
-  std::vector<std::array<std::uint64_t, kWords>> toggles_ = std::vector<std::array<std::uint64_t, kWords>>(kAcross);
-  std::vector<std::uint32_t> samples_;
+  Memory& memory_;
 };
 
 }  // namespace terrella

@@ -72,47 +72,66 @@ void add_mip(std::vector<std::uint32_t>& all, std::size_t from, int side) {
 
 }  // namespace
 
-// Each line of toggles becomes the samples east of an odd number of edges.
+void GroundFills::blend(std::uint32_t ink, bool opaque, std::uint32_t covered, std::size_t texel) {
+  constexpr std::uint32_t kWhole = 0xFFFF;
+  const auto inked = [&](std::uint32_t below) { return opaque || below == 0 ? ink : over(ink, below); };
+  std::uint32_t& parted = memory_.parted[texel];
+  if (covered == kWhole && (parted == 0 || opaque)) {
+    memory_.colors[texel] = inked(memory_.colors[texel]);
+    parted = 0;
+    return;
+  }
+  if (parted == 0) {
+    memory_.samples.emplace_back().fill(memory_.colors[texel]);
+    parted = static_cast<std::uint32_t>(memory_.samples.size());
+  }
+  Samples& samples = memory_.samples[parted - 1];
+  for (; covered != 0; covered &= covered - 1) {
+    std::uint32_t& sample = samples[static_cast<std::size_t>(std::countr_zero(covered))];
+    sample = inked(sample);
+  }
+}
+
+// Each line of toggles becomes the samples east of an odd number of edges. Four lines are a row of texels.
 void GroundFills::blend(ObjectColor color) {
-  if (samples_.empty()) samples_.assign(std::size_t{kAcross} * kAcross, 0);
+  constexpr std::size_t kTexels = std::size_t{GroundPicture::kSide_px} * GroundPicture::kSide_px;
+  constexpr int kTexelsAWord = 64 / kSamples;
+  if (memory_.colors.empty()) memory_.colors.assign(kTexels, 0), memory_.parted.assign(kTexels, 0);
   const std::uint32_t ink = premultiplied(color);
-  for (int line = low_; line <= high_; ++line) {
-    std::uint64_t carry = 0;
-    std::uint32_t* row = samples_.data() + static_cast<std::size_t>(line) * kAcross;
-    for (std::uint64_t& word : toggles_[static_cast<std::size_t>(line)]) {
-      std::uint64_t in = std::exchange(word, 0);
-      for (int shift = 1; shift < 64; shift *= 2) in ^= in << shift;
-      in ^= carry;
-      carry = in >> 63U != 0 ? ~std::uint64_t{0} : 0;
-      for (std::uint64_t left = in; left != 0;) {
-        const int first = std::countr_zero(left), count = std::countr_one(left >> first);
-        for (std::uint32_t* at = row + first; at < row + first + count; ++at) {
-          *at = *at == 0 || color.alpha == 255 ? ink : over(ink, *at);
-        }
-        left = first + count >= 64 ? 0 : left & ~std::uint64_t{0} << (first + count);
+  for (int row = low_ / kSamples; row <= high_ / kSamples; ++row) {
+    std::array<std::uint64_t, kSamples> carry{};
+    for (std::size_t word = 0; word < kWords; ++word) {
+      std::array<std::uint64_t, kSamples> in{};
+      for (std::size_t s = 0; s < kSamples; ++s) {
+        std::uint64_t bits = std::exchange(memory_.toggles[static_cast<std::size_t>(row * kSamples) + s][word], 0);
+        for (int shift = 1; shift < 64 && bits != 0; shift *= 2) bits ^= bits << shift;
+        in[s] = bits ^ carry[s];
+        carry[s] = in[s] >> 63U != 0 ? ~std::uint64_t{0} : 0;
       }
-      row += 64;
+      if ((in[0] | in[1] | in[2] | in[3]) == 0) continue;
+      const std::size_t first = static_cast<std::size_t>(row) * GroundPicture::kSide_px + word * kTexelsAWord;
+      for (unsigned k = 0; k < kTexelsAWord; ++k) {
+        const unsigned shift = k * kSamples;
+        const auto covered = static_cast<std::uint32_t>((in[0] >> shift & 15U) | (in[1] >> shift & 15U) << 4U |
+                                                        (in[2] >> shift & 15U) << 8U | (in[3] >> shift & 15U) << 12U);
+        if (covered != 0) blend(ink, color.alpha == 255, covered, first + k);
+      }
     }
   }
 }
 
 std::vector<std::uint32_t> GroundFills::means() const {
   constexpr int kSide = GroundPicture::kSide_px;
-  std::vector<std::uint32_t> all;
+  std::vector<std::uint32_t> all = memory_.colors;
   all.reserve(std::size_t{kSide} * kSide * 4 / 3);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      std::uint32_t even = 0, odd = 0;  // sums of two channels each; 16 samples of 255 need 12 bits
-      for (int s = 0; s < kSamples; ++s) {
-        const std::uint32_t* at =
-            samples_.data() + static_cast<std::size_t>((y * kSamples + s) * kAcross + x * kSamples);
-        for (int k = 0; k < kSamples; ++k) {
-          even += at[k] & 0xFF00FFU;
-          odd += at[k] >> 8U & 0xFF00FFU;
-        }
-      }
-      all.push_back(((even + 0x80008U) >> 4U & 0xFF00FFU) | (((odd + 0x80008U) >> 4U & 0xFF00FFU) << 8U));
+  for (std::size_t texel = 0; texel < memory_.parted.size(); ++texel) {
+    if (memory_.parted[texel] == 0) continue;
+    std::uint32_t even = 0, odd = 0;  // sums of two channels each; 16 samples of 255 need 12 bits
+    for (const std::uint32_t sample : memory_.samples[memory_.parted[texel] - 1]) {
+      even += sample & 0xFF00FFU;
+      odd += sample >> 8U & 0xFF00FFU;
     }
+    all[texel] = ((even + 0x80008U) >> 4U & 0xFF00FFU) | (((odd + 0x80008U) >> 4U & 0xFF00FFU) << 8U);
   }
   std::size_t from = 0;
   for (int mip = 1, side = kSide; mip < GroundPicture::kMips; ++mip, side /= 2) {
@@ -200,6 +219,19 @@ std::vector<glm::uvec2> GroundLines::take() const {
   return any ? texels : std::vector<glm::uvec2>();
 }
 
+struct GroundCanvas::Memory {
+  GroundFills::Memory fills;
+  GroundLines::Memory lines;
+};
+
+GroundCanvas::GroundCanvas() = default;
+GroundCanvas::~GroundCanvas() = default;
+GroundCanvas::Memory& GroundCanvas::memory() {
+  if (!memory_) memory_ = std::make_unique<Memory>();
+  return *memory_;
+}
+void GroundCanvas::forget() { memory_.reset(); }
+
 FaceBox box_of(const FaceSquare& square, double reach_px) {
   const double around = (GroundPicture::kRim_px + reach_px) / GroundPicture::kInner_px * square.side;
   return {square.west - around, square.south - around, square.west + square.side + around,
@@ -207,9 +239,9 @@ FaceBox box_of(const FaceSquare& square, double reach_px) {
 }
 
 GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunks> layers, double stretch,
-                           const std::atomic<bool>& stop) {
+                           const std::atomic<bool>& stop, GroundCanvas& canvas) {
   GroundPicture picture;
-  GroundFills fills(square);
+  GroundFills fills(square, canvas.memory().fills);
   float widest_px = 0.0F;
   each_part(layers, square.face, box_of(square, GroundPicture::kMostReach_px), stop,
             [&](const GroundPart& part, const GroundObject& object) {
@@ -223,7 +255,7 @@ GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunk
          picture.reach_px < 0.5 * double(widest_px) * stretch + 2.0) {
     picture.reach_px *= 2.0F;
   }
-  GroundLines lines(square, double(picture.reach_px));
+  GroundLines lines(square, double(picture.reach_px), canvas.memory().lines);
   each_part(layers, square.face, box_of(square, double(picture.reach_px)), stop,
             [&](const GroundPart& part, const GroundObject& object) {
               if (has_line(object)) lines.add(part, object);

@@ -39,9 +39,23 @@ using GroundChunks = std::vector<std::shared_ptr<const GroundChunk>>;
 /// Returns the part of a face that a square's picture shows, with texels up to `reach_px` around it.
 [[nodiscard]] FaceBox box_of(const FaceSquare& square, double reach_px);
 
+/// Memory for the work of paint_ground(), used again by the next call: fresh memory takes as long as the work.
+/// thread: any, but one call at a time
+class GroundCanvas {
+ public:
+  GroundCanvas();
+  ~GroundCanvas();
+  struct Memory;
+  [[nodiscard]] Memory& memory();
+  void forget();  ///< frees the memory. Call it after an exception of paint_ground()
+
+ private:
+  std::unique_ptr<Memory> memory_;
+};
+
 /// Paints a picture. `layers`: the lowest first. `stretch`: pixels are at most that many texels long. Areas that share
 /// an edge share no sample and leave none out. Ends early, with a useless result, once `stop` is set.
 [[nodiscard]] GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunks> layers, double stretch,
-                                         const std::atomic<bool>& stop);
+                                         const std::atomic<bool>& stop, GroundCanvas& canvas);
 
 }  // namespace terrella

@@ -12,20 +12,16 @@
 
 #include "apps/bench/benches.h"
 #include "apps/bench/frame_timing.h"
-#include "apps/bench/sources/wave_numbers.h"
+#include "apps/bench/objects/ground_bench.h"
 #include "apps/bench/value_of.h"
 #include "apps/open_scene/scene_objects.h"
-#include "apps/process/data_dir.h"
 #include "render/gl/offscreen.h"
-#include "streaming/sets/open_tile_set.h"
 
 namespace terrella::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr Viewport kPicture{1024, 1024};
-constexpr std::chrono::seconds kLongest{300};
 constexpr int kFrames = 15;
 
 double processor_ms(clockid_t clock) {
@@ -113,7 +109,7 @@ ObjectScene countries(int count) {
 class ObjectBench {
  public:
   ObjectBench(const BenchOptions& options, Report& report)
-      : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kPicture) {
+      : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kObjectPicture) {
     GlobeOptions how;
     add_label_font(how);
     globe_ = value_of(Globe::create(how));
@@ -162,9 +158,9 @@ class ObjectBench {
   /// Draws frames until settled, none of them in vain; returns the number of objects that were tessellated.
   std::size_t settle() {
     std::size_t cut = 0;
-    const auto late = Clock::now() + kLongest;
+    const auto late = Clock::now() + kLongestSettling;
     do {
-      cut += globe_->render(target_.framebuffer(), kPicture).objects_cut;
+      cut += globe_->render(target_.framebuffer(), kObjectPicture).objects_cut;
       while (!globe_->settled() && !globe_->needs_frame()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (Clock::now() > late) throw std::runtime_error("the objects have not settled in five minutes");
     } while (!globe_->settled());
@@ -198,7 +194,7 @@ class ObjectBench {
     const LayerId layer = value_of(globe_->add_objects({.points = scene.points}));
     settle();
     std::mt19937 random(8);
-    std::uniform_real_distribution<double> pixel(0.0, kPicture.width_px);
+    std::uniform_real_distribution<double> pixel(0.0, kObjectPicture.width_px);
     const auto row = [&](const char* how, int rounds, const auto& pick) {
       std::vector<double> ms;
       for (int round = 0; round < rounds; ++round) {
@@ -209,9 +205,9 @@ class ObjectBench {
       }
       report_.rows.push_back({what, std::string(how), median(ms), kNoFigure, std::int64_t{0}});
     };
-    static_cast<void>(globe_->pick({512.0, 512.0}, kPicture));  // makes the index
-    row("pick", 200, [&](glm::dvec2 at) { static_cast<void>(globe_->pick(at, kPicture)); });
-    const View view = globe_->view(kPicture);
+    static_cast<void>(globe_->pick({512.0, 512.0}, kObjectPicture));  // makes the index
+    row("pick", 200, [&](glm::dvec2 at) { static_cast<void>(globe_->pick(at, kObjectPicture)); });
+    const View view = globe_->view(kObjectPicture);
     const Ground ground = globe_->ground();
     row("scan", 10, [&](glm::dvec2 at) { static_cast<void>(pick_object(view, ground, scene, at)); });
     check(globe_->remove(layer));
@@ -248,130 +244,6 @@ class ObjectBench {
   std::unique_ptr<Globe> globe_;
 };
 
-/// `count` areas that do not overlap, with 40 corners each, whatever their number, on ground or draped over it.
-ObjectScene districts(int count, HeightMode heights, const Geodetic& middle, double span_deg) {
-  constexpr int kSide = 10;
-  const int across = static_cast<int>(std::lround(std::sqrt(double(count))));
-  const auto at = [&](double column, double row) {
-    const double sway = 0.15 * std::sin(2.1 * column + 3.3 * row);
-    const double part_x = (column + sway) / across - 0.5, part_y = (row - sway) / across - 0.5;
-    return Geodetic{middle.lat + Angle::degrees(span_deg * part_y),
-                    middle.lon + Angle::degrees(2.0 * span_deg * part_x)};
-  };
-  ObjectScene scene;
-  for (int k = 0; k < across * across; ++k) {
-    const int x = k % across, y = k / across;
-    PolygonObject area{.rings = {{}},
-                       .fill = {std::uint8_t(k * 37), std::uint8_t(k * 91), 90, 140},
-                       .stroke_width_px = 1.5F,
-                       .of = {.id = ObjectId{std::uint64_t(k) + 1}},
-                       .heights = heights};
-    for (int side = 0; side < 4; ++side) {
-      for (int step = 0; step < kSide; ++step) {
-        const double t = double(step) / kSide;
-        const double dx[] = {t, 1.0, 1.0 - t, 0.0}, dy[] = {0.0, t, 1.0, 1.0 - t};
-        area.rings[0].push_back(at(x + dx[side], y + dy[side]));
-      }
-    }
-    scene.polygons.push_back(std::move(area));
-  }
-  return scene;
-}
-
-ObjectScene long_track(HeightMode heights) {
-  constexpr int kTrackPlaces = 200'000;
-  LineObject line{.heights = heights};
-  for (int k = 0; k < kTrackPlaces; ++k) {
-    const double t = double(k) / kTrackPlaces - 0.5;
-    line.places.push_back({Angle::degrees(10.0 + 40.0 * t + 2.0 * std::sin(400.0 * t) + 0.02 * std::sin(9000.0 * t)),
-                           Angle::degrees(10.0 + 24.0 * std::sin(7.0 * t) + 2.0 * std::cos(300.0 * t)), 0.0});
-  }
-  return {.lines = {std::move(line)}};
-}
-
-/// Lines and areas on the ground, as ratios to the bare globe of the same view. The camera turns.
-class GroundBench {
- public:
-  GroundBench(const BenchOptions& options, Report& report)
-      : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kPicture) {}
-
-  void run() {
-    const Geodetic home{Angle::degrees(20), Angle::degrees(10), 3e6}, town{Angle::degrees(47), Angle::degrees(7), 2e3};
-    Geodetic far = town;
-    far.height_m = 2e6;
-    const auto flat = HeightMode::absolute, draped = HeightMode::clamp_to_ground;
-    const int many = quick_ ? 500 : 5000, small = quick_ ? 1000 : 100'000;
-    add("bare", home, false, {}, "", 0.0);
-    add("bare relief", home, true, {}, "", 0.0);
-    add("bare, 2 km", town, false, {}, "", 0.0);
-    add("bare, 2000 km", far, false, {}, "", 0.0);
-    add(fmt::format("{} areas", many), home, false, districts(many, flat, {}, 160.0), "bare", 1.5, 1500.0);
-    add(fmt::format("{} draped areas", many), home, true, districts(many, draped, {}, 160.0), "bare relief", 1.7,
-        1500.0);
-    add("a line of 200000 places", home, false, long_track(flat), "bare", 1.3, 500.0);
-    add("the line, draped", home, true, long_track(draped), "bare relief", 1.3, 500.0);
-    add(fmt::format("{} houses, 2 km", small), town, false, districts(small, flat, town, 0.2), "bare, 2 km", 2.0);
-    add(fmt::format("{} houses, 2000 km", small), far, false, districts(small, flat, town, 0.2), "bare, 2000 km", 2.0);
-    time_frames(subjects_, quick_ ? 2 : 15);
-    for (std::size_t k = 0; k < subjects_.size(); ++k) {
-      report_.rows.push_back(
-          {subjects_[k].name, std::string("a frame"), kNoFigure, median(subjects_[k].cpu_ms), std::int64_t{0}});
-      const auto base = std::ranges::find(subjects_, bases_[k], &Subject::name);
-      if (base == subjects_.end()) continue;
-      const double ratio = median_ratio(subjects_[k].cpu_ms, base->cpu_ms);
-      report_.findings.push_back(
-          {subjects_[k].name + ", of the bare globe", ratio, quick_ ? kNoFigure : limits_[k], ""});
-    }
-  }
-
- private:
-  void add(const std::string& name, Geodetic eye, bool relief, ObjectScene scene, const std::string& base, double limit,
-           double settled_ms = 0.0) {
-    if (!base.empty() && !options_.wants(name)) return;
-    options_.progress(name);
-    GlobeOptions how;
-    how.upload_bytes_per_frame = how.gpu_bytes;
-    how.upload_time_per_frame = std::chrono::seconds(1);
-    globes_.push_back(value_of(Globe::create(how, value_of(open_tile_set(data_file("earth.gpkg").string())))));
-    Globe& globe = *globes_.back();
-    if (relief) {
-      const auto heights = wave_numbers(-6375.0, 50.0, {.floats = true, .unit = "m"});
-      if (Status set = globe.set_elevation(value_of(ElevationSource::open(heights, "waves"))); !set) {
-        throw std::runtime_error(set.error().message);
-      }
-    }
-    globe.set_camera({.eye = eye});
-    settle(globe);
-    const auto start = Clock::now();
-    if (!scene.empty()) static_cast<void>(value_of(globe.add_objects(std::move(scene))));
-    settle(globe);
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    if (settled_ms > 0.0) {
-      report_.findings.push_back({name + ", settled after add_objects()", ms, quick_ ? kNoFigure : settled_ms, "ms"});
-    }
-    subjects_.push_back({name, [this, &globe, eye, turn = 0]() mutable {
-                           globe.set_camera({.eye = eye, .heading = Angle::degrees(0.2 * (++turn % 8))});
-                           globe.render(target_.framebuffer(), kPicture);
-                         }});
-    bases_.push_back(base);
-    limits_.push_back(limit);
-  }
-  void settle(Globe& globe) {
-    if (!globe.render_until_settled(target_.framebuffer(), kPicture, Clock::now() + kLongest)) {
-      throw std::runtime_error("the globe has not settled in five minutes");
-    }
-  }
-
-  const BenchOptions& options_;
-  Report& report_;
-  bool quick_;
-  OffscreenTarget target_;
-  std::vector<std::unique_ptr<Globe>> globes_;
-  std::vector<Subject> subjects_;
-  std::vector<std::string> bases_;
-  std::vector<double> limits_;
-};
-
 }  // namespace
 
 Result<Report> bench_objects(const BenchOptions& options) {
@@ -390,7 +262,7 @@ Result<Report> bench_objects(const BenchOptions& options) {
   report.plots = {{.title = "time of the call", .x = "shown", .y = "call", .series = "by", .lines = false}};
   try {
     ObjectBench(options, report).run();
-    GroundBench(options, report).run();
+    bench_ground(options, report);
   } catch (const std::exception& error) {
     return Error{error.what()};
   }
