@@ -108,6 +108,7 @@ std::size_t GroundPictures::take_painted() {
     if (!painted.is_painted) continue;  // the next frame wants it again
     Entry& entry = entries_[painted.id];
     entry.made = put(painted.picture, entry);
+    entry.crossed = painted.picture.crossed;
     entry.reach_px = painted.picture.reach_px;
     entry.stretch = painted.stretch;
     entry.revision = painted.revision;

@@ -68,7 +68,7 @@ class GroundPictures {
  private:
   struct Entry {
     GroundSlots slots;
-    bool made = false;
+    bool made = false, crossed = false;
     float reach_px = 0.0F;
     double stretch = 0.0;
     std::uint64_t revision = 0, changed = 0;  ///< content; last change under it

@@ -69,6 +69,7 @@ class GroundPictures::Planner {
       out.frame.cells.resize(out.frame.cells.size() + side * side, {0xFFFFFFFFU, 0U});
       for (const Leaf& leaf : leaves_) put(leaf, window, side, out.frame.cells.data() + window.x);
       if (window.z != 0 && slanted_) window.z |= 4U;
+      if (std::ranges::any_of(leaves_, [](const Leaf& leaf) { return leaf.entry->crossed; })) window.z = kCrossedLines;
     }
     out.frame.windows.push_back(window);
   }

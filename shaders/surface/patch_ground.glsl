@@ -34,24 +34,27 @@ vec4 areas_on(OnPicture p, float slot) {
   return vec4(mean.rgb * object_light, mean.a);
 }
 
-// The line nearest to a pixel. Its distance is measured across the line in the picture, so its width holds at a slant.
-vec4 line_on(OnPicture p, int slot, float reach) {
-  ivec2 texel = ivec2(p.at);
-  uvec2 line = texelFetch(ground_line, ivec3(texel, slot), 0).xy;
-  uvec4 parts = (uvec4(line.y) >> uvec4(22u, 12u, 6u, 0u)) & uvec4(1023u, 1023u, 63u, 63u);
+// A line at a pixel. Its distance is measured on the screen, so its width holds at a slant: across the line, and from
+// the point at an end of a piece.
+vec4 line_on(OnPicture p, uvec2 line, float reach) {
+  uvec4 parts = (uvec4(line.y) >> uvec4(23u, 12u, 6u, 0u)) & uvec4(511u, 1023u, 63u, 63u);
   float half_width = float(parts.x) / 8.0;
   vec2 across = vec2(parts.zw) * vec2(1.0 / 31.0, 1.0 / 63.0) - vec2(32.0 / 31.0, 0.0);
-  float away = dot(across, p.at - (vec2(texel) + 0.5)) - (float(parts.y) - 512.0) * (reach / 511.0);
+  vec2 from_middle = p.at - (floor(p.at) + 0.5);
+  float distance = (float(parts.y) - 512.0) * (reach / 511.0), away = dot(across, from_middle) - distance;
   vec2 per_px = vec2(dot(across, p.a), dot(across, p.b));
-  float px = inversesqrt(max(dot(per_px, per_px), 1e-12));
+  float px = inversesqrt(max(dot(per_px, per_px), 1e-12)), away_px = abs(away) * px;
 #if defined(SLANTED)
   float size = abs(p.a.x * p.b.y - p.a.y * p.b.x), long_sq = max(max(dot(p.a, p.a), dot(p.b, p.b)), 1e-12);
+  vec2 to_end = distance * across - from_middle;
+  vec2 end_px = vec2(to_end.x * p.b.y - to_end.y * p.b.x, to_end.y * p.a.x - to_end.x * p.a.y);
+  away_px = (line.y & (1u << 22)) == 0u ? away_px : length(end_px) / max(size, 1e-12);
   half_width *= min(1.0, kLongestFullPixel * size * inversesqrt(long_sq) * px);
   float shown = min(1.0, kLongestFullPixel * size / long_sq);
 #else
   const float shown = 1.0;
 #endif
-  float coverage = clamp(0.5 + half_width - abs(away) * px, 0.0, 1.0) * min(1.0, 2.0 * half_width) * shown;
+  float coverage = clamp(0.5 + half_width - away_px, 0.0, 1.0) * min(1.0, 2.0 * half_width) * shown;
   uvec4 bytes = (uvec4(line.x) >> uvec4(0u, 8u, 16u, 24u)) & 255u;
   float alpha = float(bytes.w) / 255.0 * coverage;
   return vec4(vec3(bytes.xyz) / 255.0 * alpha, alpha);
@@ -74,7 +77,13 @@ vec4 on_ground() {
 #if defined(LINES)
   uint line_slot = words.x >> 16;
   float reach = uintBitsToFloat((129u + (words.y >> 28)) << 23);
-  vec4 line = line_on(there, int(line_slot == 65535u ? 0u : line_slot), reach) * (line_slot == 65535u ? 0.0 : 1.0);
+  uvec4 lines = texelFetch(ground_line, ivec3(ivec2(there.at), line_slot == 65535u ? 0u : line_slot), 0);
+  lines *= line_slot == 65535u ? 0u : 1u;
+#if defined(CROSSED)
+  vec4 below = line_on(there, lines.zw, reach);
+  sum = below + (1.0 - below.a) * sum;
+#endif
+  vec4 line = line_on(there, lines.xy, reach);
   sum = line + (1.0 - line.a) * sum;
 #endif
   return sum;

@@ -8,35 +8,51 @@
 
 namespace terrella {
 
-/// The nearest line of each texel. Of lines that cover the middle of a texel the last one counts.
+/// The lines of each texel: the last of those that a pixel there may show, and the one below it if its colour is
+/// another. Without these, the nearest line. Of lines of one colour the one that reaches furthest over the texel
+/// counts.
 class GroundLines {
  public:
-  struct Best {
-    float away = 1e9F, over = 1e9F;  ///< distance to the line's middle; to its side, or 0
+  struct Line {
+    float away = 0.0F, over = 0.0F;  ///< distance to the line's middle; to its side, or 0
     float distance = 0.0F;           ///< signed, along `direction`
     glm::vec2 direction{1.0F, 0.0F};
-    std::uint32_t color = 0, width = 0, owner = 0;
+    std::uint32_t color = 0;
+    float half_width_px = 0.0F;
+    std::uint32_t owner = 0;  ///< 0: none
+    bool is_end = false;      ///< the nearest point is an end of a piece
   };
-  using Memory = std::vector<Best>;
+  struct Texel {
+    Line top, below;
+  };
+  using Memory = std::vector<Texel>;
 
-  /// Texels keep lines up to `reach_px` away.
-  GroundLines(const FaceSquare& square, double reach_px, Memory& memory)
-      : edges_(square, reach_px), reach_(reach_px), best_(memory) {
-    best_.clear();
+  /// Texels keep lines up to `reach_px` away. `stretch`: pixels are at most that many texels long.
+  GroundLines(const FaceSquare& square, double reach_px, double stretch, Memory& memory)
+      : edges_(square, reach_px), reach_(reach_px), stretch_(static_cast<float>(stretch)), texels_(memory) {
+    texels_.clear();
   }
 
   void add(const GroundPart& part, const GroundObject& object);
-  /// Empty if no line is within reach.
-  [[nodiscard]] std::vector<glm::uvec2> take() const;
+  /// Sets `line` and `crossed` of a picture.
+  void take(GroundPicture& picture) const;
 
  private:
   void piece(glm::dvec2 a, glm::dvec2 b);
+  void offer(const Line& line, Texel& texel) const;
+  /// True if a pixel whose middle is in the texel may show the line.
+  [[nodiscard]] bool may_show(const Line& line) const {
+    return line.owner != 0 && line.away <= (line.half_width_px + kBesideMiddle_px) * stretch_;
+  }
+  [[nodiscard]] std::uint32_t code(const Line& line) const;
+  static constexpr float kBesideMiddle_px = 0.75F;
 
   GroundEdges edges_;
   double reach_;
+  float stretch_;
   float half_width_ = 0.0F;
-  std::uint32_t color_ = 0, width_ = 0, owner_ = 0;
-  Memory& best_;
+  std::uint32_t color_ = 0, owner_ = 0;
+  Memory& texels_;
 };
 
 }  // namespace terrella

@@ -144,11 +144,9 @@ std::vector<std::uint32_t> GroundFills::means() const {
 
 void GroundLines::add(const GroundPart& part, const GroundObject& object) {
   half_width_ = 0.5F * object.width_px;
-  const auto width = static_cast<std::uint32_t>(std::lround(std::min(1023.0F, 8.0F * half_width_)));
   color_ = packed(object.line);
   ++owner_;
-  if (best_.empty()) best_.resize(std::size_t{GroundPicture::kSide_px} * GroundPicture::kSide_px);
-  width_ = std::max(1U, width);
+  if (texels_.empty()) texels_.resize(std::size_t{GroundPicture::kSide_px} * GroundPicture::kSide_px);
   for (const GroundRun& run : part.runs) {
     if (run.use == RunUse::fill) continue;
     const double margin_px = reach_ + edges_.bend_px(run.box);
@@ -191,32 +189,57 @@ void GroundLines::piece(glm::dvec2 a, glm::dvec2 b) {
       const glm::vec2 to(along * way.x - px, along * way.y - off);
       const float away = std::sqrt(to.x * to.x + to.y * to.y);
       if (!(away < static_cast<float>(reach_))) continue;
-      Best& best = best_[static_cast<std::size_t>(y * kSide + x)];
-      const float over = std::max(0.0F, away - half_width_);
-      if (best.owner == owner_ ? away >= best.away : over > best.over) continue;
       // Beside the piece, and where it nearly meets the texel's middle, the direction is across the piece.
       const bool across = along == there || away < kNearEnd_px;
       const glm::vec2 direction = across ? glm::vec2(-way.y, way.x) : to / away;
-      best = {away, over, across ? to.x * direction.x + to.y * direction.y : away, direction, color_, width_, owner_};
+      offer({away, std::max(0.0F, away - half_width_), across ? to.x * direction.x + to.y * direction.y : away,
+             direction, color_, half_width_, owner_, !across},
+            texels_[static_cast<std::size_t>(y * kSide + x)]);
     }
   }
 }
 
-// The direction lies in a half turn, and the distance has a sign.
-std::vector<glm::uvec2> GroundLines::take() const {
-  std::vector<glm::uvec2> texels(best_.size(), glm::uvec2(0));
-  bool any = false;
-  for (std::size_t k = 0; k < best_.size(); ++k) {
-    const Best& best = best_[k];
-    if (best.owner == 0) continue;
-    any = true;
-    const float sign = best.direction.y < 0.0F ? -1.0F : 1.0F;
-    const auto code = [](double value) { return static_cast<std::uint32_t>(std::lround(value)); };
-    texels[k] = {best.color, best.width << 22U | code(512.0 + sign * 511.0 * double(best.distance) / reach_) << 12U |
-                                 code(32.0 + sign * 31.0 * double(best.direction.x)) << 6U |
-                                 code(sign * 63.0 * double(best.direction.y))};
+// Objects come in their order, so a line lies over all that the texel has.
+void GroundLines::offer(const Line& line, Texel& texel) const {
+  Line& top = texel.top;
+  if (top.owner == line.owner ? line.away >= top.away : top.color == line.color && line.over > top.over) return;
+  if (top.color != line.color && may_show(top)) {
+    if (!may_show(line)) return;
+    texel.below = top;
+  } else if (top.color != line.color && top.owner != 0 && !may_show(line) && line.over > top.over) {
+    return;
   }
-  return any ? texels : std::vector<glm::uvec2>();
+  top = line;
+}
+
+// The direction lies in a half turn, and the distance has a sign.
+std::uint32_t GroundLines::code(const Line& line) const {
+  const double sign = line.direction.y < 0.0F ? -1.0 : 1.0;
+  const auto whole = [](double value) { return static_cast<std::uint32_t>(std::lround(value)); };
+  const std::uint32_t width = whole(std::clamp(8.0 * double(line.half_width_px), 1.0, 511.0));
+  return width << 23U | (line.is_end ? 1U << 22U : 0U) |
+         whole(512.0 + sign * 511.0 * double(line.distance) / reach_) << 12U |
+         whole(32.0 + sign * 31.0 * double(line.direction.x)) << 6U | whole(sign * 63.0 * double(line.direction.y));
+}
+
+void GroundLines::take(GroundPicture& picture) const {
+  constexpr float kLeastTexelsAPixel = 0.7F;
+  bool any = false;
+  picture.line.assign(texels_.size(), glm::uvec4(0));
+  for (std::size_t k = 0; k < texels_.size(); ++k) {
+    const auto& [top, below] = texels_[k];
+    if (top.owner == 0) continue;
+    any = true;
+    glm::uvec4& to = picture.line[k];
+    to.x = top.color;
+    to.y = code(top);
+    const bool hides = top.color >> 24U == 255U && top.away + 1.0F < kLeastTexelsAPixel * top.half_width_px;
+    if (below.owner == 0 || hides) continue;
+    picture.crossed = true;
+    to.z = below.color;
+    to.w = code(below);
+  }
+  if (!any) picture.line.clear();
 }
 
 struct GroundCanvas::Memory {
@@ -255,12 +278,12 @@ GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunk
          picture.reach_px < 0.5 * double(widest_px) * stretch + 2.0) {
     picture.reach_px *= 2.0F;
   }
-  GroundLines lines(square, double(picture.reach_px), canvas.memory().lines);
+  GroundLines lines(square, double(picture.reach_px), stretch, canvas.memory().lines);
   each_part(layers, square.face, box_of(square, double(picture.reach_px)), stop,
             [&](const GroundPart& part, const GroundObject& object) {
               if (has_line(object)) lines.add(part, object);
             });
-  picture.line = lines.take();
+  lines.take(picture);
   return picture;
 }
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,10 +26,12 @@ struct GroundPicture {
 
   /// Colours of areas, premultiplied, RGBA8: all mips, finest first. Empty: no area is there.
   std::vector<std::uint32_t> fill;
-  /// For each texel the line that is nearest to its middle: the line's colour, RGBA8; and half its width in 1/8 px
-  /// (10 bits), its distance (10 bits, 512 + 511 · distance / reach) along a direction of a half turn (x: 6 bits, 32 +
-  /// 31 · x; y: 6 bits, 63 · y). 0: no line is within reach. Empty: no line is in the picture.
-  std::vector<glm::uvec2> line;
+  /// For each texel two lines (GroundLines), first the one that lies on top: its colour, RGBA8; and half its width in
+  /// 1/8 px (9 bits), whether its nearest point is an end of a piece (1 bit), its distance from the texel's middle (10
+  /// bits, 512 + 511 · distance / reach) along a direction of a half turn (x: 6 bits, 32 + 31 · x; y: 6 bits, 63 · y).
+  /// 0: no line is within reach. Empty: no line is in the picture.
+  std::vector<glm::uvec4> line;
+  bool crossed = false;             ///< a texel has a second line
   float reach_px = kLeastReach_px;  ///< most texels between a line and its texels
 };
 

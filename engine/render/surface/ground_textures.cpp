@@ -12,7 +12,7 @@ constexpr int kFirstGroundSlots = 8;
 constexpr int kSide_px = GroundPicture::kSide_px;
 
 constexpr std::size_t slot_bytes(int plane) {
-  if (plane == 1) return std::size_t{8} * kSide_px * kSide_px;
+  if (plane == 1) return std::size_t{16} * kSide_px * kSide_px;
   std::size_t texels = 0;
   for (int k = 0; k < GroundPicture::kMips; ++k) texels += static_cast<std::size_t>((kSide_px >> k) * (kSide_px >> k));
   return 4 * texels;
@@ -33,7 +33,7 @@ gl::Sampler ground_sampler(GLenum minify, GLenum magnify) {
 
 gl::Texture GroundTextures::make(int plane, int slots) const {
   gl::Texture array = gl::make_texture(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(array.name(), mips_of(plane), plane == fill ? GL_RGBA8 : GL_RG32UI, kSide_px, kSide_px, slots);
+  glTextureStorage3D(array.name(), mips_of(plane), plane == fill ? GL_RGBA8 : GL_RGBA32UI, kSide_px, kSide_px, slots);
   return gl::has_storage(array) ? std::move(array) : gl::Texture();
 }
 
@@ -104,7 +104,7 @@ bool GroundTextures::put(const GroundPicture& picture, GroundSlots& slots) {
     from += side * side;
   }
   if (!picture.line.empty()) {
-    glTextureSubImage3D(planes_[line].texture.name(), 0, 0, 0, slots.line, kSide_px, kSide_px, 1, GL_RG_INTEGER,
+    glTextureSubImage3D(planes_[line].texture.name(), 0, 0, 0, slots.line, kSide_px, kSide_px, 1, GL_RGBA_INTEGER,
                         GL_UNSIGNED_INT, picture.line.data());
   }
   return true;

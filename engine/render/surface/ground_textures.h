@@ -14,6 +14,9 @@ namespace terrella {
 /// GroundFrame::cells has 16 bits for a slot.
 inline constexpr int kMostGroundSlots = 0xFFFF;
 
+/// GroundFrame::windows, z, of a patch on which lines of different colours cross.
+inline constexpr unsigned kCrossedLines = 4;
+
 /// Slots of a picture of the ground; -1: it has no such part.
 struct GroundSlots {
   int fill = -1, line = -1;
@@ -63,7 +66,7 @@ class GroundTextures {
 struct GroundFrame {
   const GroundTextures* textures = nullptr;
   /// Per patch of the base layer: first of its cells; log2 of its cells a side; 1: has areas, 2: has lines, 4: is
-  /// seen at a slant. 0: nothing lies on the patch.
+  /// seen at a slant; 4 alone: all these, and lines of different colours cross. 0: nothing lies on the patch.
   std::vector<glm::uvec4> windows;
   /// Rows of cells from the south-west. Slots of areas and of lines (16 bits each, 0xFFFF: none); then how many times
   /// the picture's square is halved to get the cell (4 bits), the cell's column and row among these parts (12 bits
