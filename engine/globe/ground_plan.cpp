@@ -15,8 +15,9 @@ constexpr int kMostDepth = 6;
 constexpr int kMostHalvings = 12;  // GroundFrame::cells
 /// Pictures of larger squares would lack lines of other faces within their reach.
 constexpr int kLeastLevel = 1;
-/// Slopes of relief stretch pixels further.
-constexpr double kLeastStretch = 2.0, kLeastStretchOnRelief = 8.0, kMostStretch = 64.0;
+/// Stretches of pictures are powers of kStretchStep, so that a turn of the eye seldom needs other pictures. At
+/// kMostSlant lines have faded (patch_ground.glsl); slopes of relief bring pixels of kReliefSlant everywhere.
+constexpr double kLeastStretch = 2.0, kStretchStep = 1.414, kReliefSlant = 7.0, kMostSlant = 16.0;
 /// Pixels of ground whose normal has a smaller cosine towards the eye are clearly longer than wide.
 constexpr double kSlanted = 0.55;
 /// Texels may be this many pixels wide; those of pictures of squares larger than patches less, since slopes stretch
@@ -25,9 +26,9 @@ constexpr double kMostTexel_px = 1.4, kMostLargerTexel_px = 0.7, kMostLargerTexe
 constexpr double kCoarserStep = 1.5;
 constexpr int kMostCoarser = 16;
 
-double stretch_of(double wish, bool has_relief) {
-  double least = has_relief ? kLeastStretchOnRelief : kLeastStretch;
-  while (least < std::min(kMostStretch, wish)) least *= 2.0;
+double stretch_of(double wish) {
+  double least = kLeastStretch;
+  while (least < wish) least *= kStretchStep;
   return least;
 }
 
@@ -98,6 +99,7 @@ class GroundPictures::Planner {
     BoundingSphere sphere;
     glm::dvec3 up{0.0}, to_eye{0.0};
     double away_m = 0.0, side_m = 0.0, pixel_m = 0.0;
+    double longest_m = 0.0;  ///< ground under the longest pixel
     /// Pixels that a texel of a square some levels above is wide.
     [[nodiscard]] double texel_px(int levels) const {
       return std::ldexp(side_m, levels) / (GroundPicture::kInner_px * pixel_m);
@@ -111,11 +113,16 @@ class GroundPictures::Planner {
     Sight s;
     s.up = patch_point(id, 1, 1, 2).xyz;
     s.sphere.center_m = e.position(EcefDir{s.up}, relief.middle_m).xyz_m;
-    double flat_m = 0.0;
+    double flat_m = 0.0, longest = 0.0;
     for (int k = 0; k < 4; ++k) {
-      const glm::dvec3 corner = e.position(patch_point(id, k % 2, k / 2, 1), relief.middle_m).xyz_m;
+      const EcefDir up = patch_point(id, k % 2, k / 2, 1);
+      const glm::dvec3 corner = e.position(up, relief.middle_m).xyz_m, to_eye = view_.view.eye.xyz_m - corner;
       flat_m = std::max(flat_m, glm::distance(corner, s.sphere.center_m));
+      const double away_m = glm::length(to_eye), cosine = std::abs(glm::dot(up.xyz, to_eye)) / away_m;
+      const double slant = std::min(kMostSlant, 1.0 / std::max(cosine, 1e-3));
+      longest = std::max(longest, away_m * std::max(slant, view_.has_relief ? kReliefSlant : 1.0));
     }
+    s.longest_m = longest / view_.view.pixels_per_radian();
     s.sphere.radius_m = flat_m + relief.half_m;
     s.to_eye = view_.view.eye.xyz_m - s.sphere.center_m;
     s.away_m = glm::length(s.to_eye);
@@ -152,10 +159,8 @@ class GroundPictures::Planner {
     Need& need = place->second;
     const double cosine = std::abs(glm::dot(sight.up, sight.to_eye)) / sight.away_m;
     slanted_ = slanted_ || cosine < kSlanted || view_.has_relief;
-    // Texels under a pixel, where it is longest.
-    const double texels = GroundPicture::kInner_px * sight.pixel_m / std::ldexp(sight.side_m, up);
-    const double wish = 1.25 * std::max(texels, 1.0) / std::max(cosine, 1e-3);
-    need.stretch = std::max(need.stretch, stretch_of(wish, view_.has_relief));
+    const double texels = GroundPicture::kInner_px * sight.longest_m / std::ldexp(sight.side_m, up);
+    need.stretch = std::max(need.stretch, stretch_of(texels));
     Entry& entry = pictures_.entries_[square];
     entry.needed = entry.shown = pictures_.plans_;
     if (entry.made) return take({id, depth, &entry, up});
