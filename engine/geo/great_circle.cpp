@@ -41,14 +41,29 @@ void append_halves(const MapPoint& a, const MapPoint& b, int halvings, MapRing& 
 
 bool is_pole(const MapPoint& p) { return std::abs(p.lat_deg) == 90.0; }
 
+/// True if the edge from a position is a side of a box on a map that is 360° wide.
+bool is_side_round(const std::vector<MapPoint>& ring, std::size_t i) {
+  const std::size_t count = ring.size();
+  const MapPoint &from = ring[i], &to = ring[(i + 1) % count];
+  if (std::abs(to.lon_deg - from.lon_deg) != 360.0 || to.lat_deg != from.lat_deg) return false;
+  return is_pole(from) ||
+         (ring[(i + count - 1) % count].lon_deg == from.lon_deg && ring[(i + 2) % count].lon_deg == to.lon_deg);
+}
+
+/// True if a ring closes on the map, where sides of a box go once round the parallel.
+bool closes_on_map(const std::vector<MapPoint>& ring) {
+  double sum_deg = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const double turn_deg = ring[(i + 1) % ring.size()].lon_deg - ring[i].lon_deg;
+    sum_deg += is_side_round(ring, i) ? turn_deg : std::remainder(turn_deg, 360.0);
+  }
+  return std::abs(sum_deg) < 180.0;
+}
+
 /// Appends the edge from the last point of the ring to a position, including that position.
 Status append_edge(const MapPoint& given_from, const MapPoint& given_to, MapRing& ring) {
   const MapPoint from = ring.back();
   const double turn_deg = given_to.lon_deg - given_from.lon_deg;
-  if (std::abs(turn_deg) == 360.0 && given_to.lat_deg == given_from.lat_deg) {
-    ring.push_back({from.lon_deg + turn_deg, given_to.lat_deg});
-    return Done{};
-  }
   const double east_deg = std::remainder(turn_deg, 360.0);
   const MapPoint to{from.lon_deg + east_deg, given_to.lat_deg};
   if (is_pole(from) || is_pole(to) || east_deg == 0.0) {
@@ -112,8 +127,13 @@ std::vector<MapRing> cut_at_antimeridian(MapRing ring) {
 
 Result<std::vector<MapRing>> rings_of(const std::vector<MapPoint>& positions) {
   MapRing ring{{std::remainder(positions.front().lon_deg, 360.0), positions.front().lat_deg}};
+  const bool has_sides = closes_on_map(positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const MapPoint& next = positions[(i + 1) % positions.size()];
+    if (has_sides && is_side_round(positions, i)) {
+      ring.push_back({ring.back().lon_deg + (next.lon_deg - positions[i].lon_deg), next.lat_deg});
+      continue;
+    }
     if (const Status edge = append_edge(positions[i], next, ring); !edge) return edge.error();
   }
   const double turns = std::round((ring.back().lon_deg - ring.front().lon_deg) / 360.0);

@@ -17,8 +17,10 @@ inline constexpr double kArcTolerance_deg = 1.0e-5;
 ///
 /// Edges are the shorter great circles of the sphere of geodetic latitude and longitude, in straight pieces. An edge
 /// between two places of one meridian follows the meridian. An edge between one place and the same place written 360°
-/// further runs once round the parallel, so that a box of the whole planet keeps its meaning. A ring that goes round a
-/// pole encloses the cap of the smaller area. Any other ring encloses the area between its longitudes.
+/// further has no length, unless it is a side of a box that closes on the map: both neighbours of the edge lie on its
+/// meridians, or it lies at a pole. A side runs once round the parallel, so that a box of the whole planet keeps its
+/// meaning. A ring that goes round a pole encloses the cap of the smaller area. Any other ring encloses the area
+/// between its longitudes.
 ///
 /// Fails if neighbours are antipodal (no shorter way), and if a ring goes round a pole more than once. Latitudes must
 /// be in [-90, 90], longitudes finite. The last position may repeat the first. thread: any

@@ -170,6 +170,24 @@ TEST(GeojsonRegion, OverTheAntimeridianEitherWayOfWriting) {
   EXPECT_TRUE(short_way.contains({6, 127, 32}));
 }
 
+// Fiji and Antarctica of Natural Earth, whose files join the parts at ±180° with an edge of no length.
+TEST(GeojsonRegion, AnEdgeFrom180ToMinus180HasNoLengthUnlessItIsASideOfABox) {
+  const Positions fiji = {{180, -16.067},     {-179.795, -16.021}, {-179.917, -16.502},
+                          {-180, -16.556},    {179.363, -16.801},  {178.726, -17.011},
+                          {178.596, -16.639}, {179.096, -16.434},  {179.413, -16.378}};
+  const Positions coast = {{-180, -84.714}, {-140, -75}, {-60, -65}, {30, -70}, {90, -66}, {150, -69}, {178, -84.5}};
+  for (Positions ring : {fiji, coast}) {
+    const auto expected = tiles_in(polygon_text({ring}), 5);
+    ring.push_back({-ring[0].lon_deg, ring[0].lat_deg});
+    EXPECT_EQ(tiles_in(polygon_text({ring}), 5), expected);
+    std::ranges::reverse(ring);
+    EXPECT_EQ(tiles_in(polygon_text({ring}), 5), expected);
+  }
+  EXPECT_LT(tiles_in(polygon_text({fiji}), 5).size(), 5U);
+  const Positions band = {{-180, -10}, {180, -10}, {180, 10}, {-180, 10}};
+  EXPECT_EQ(tiles_in(polygon_text({band}), 5), tiles_in_box(box(-180, -10, 180, 10), 5));
+}
+
 TEST(GeojsonRegion, RoundAPoleTheSmallerSideIsInside) {
   const Positions arctic = {{0, 80}, {90, 80}, {180, 80}, {-90, 80}};
   const Positions antarctic = {{0, -80}, {90, -80}, {180, -80}, {-90, -80}};
