@@ -79,7 +79,7 @@ int tell_of_missing(const RenderCommand& command, const Rendered& rendered, bool
     print_message("terrella render: {}\n", note);
   }
   if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
-    return all_objects && rasters_left_out() == 0 ? kDone : kDoneInPart;
+    return all_objects && rasters_left_out() == 0 && stats.ground_left_out == 0 ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered.missing.size(), kMostNamed); ++k) {
     print_message("terrella render: missing: {}\n", name_of(rendered.missing[k]));

@@ -42,6 +42,9 @@ struct FrameStats {
   /// The driver has refused memory for texture slots, for pictures of the ground, or for an object layer, which is
   /// then not drawn.
   bool gpu_memory_refused = false;
+  /// Squares of the ground in view whose lines and areas are not drawn, because their pictures have no room: too small
+  /// a budget for the coarsest pictures.
+  int ground_left_out = 0;
   std::size_t height_bytes = 0;  ///< elevation tiles
   std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
   std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state

@@ -158,6 +158,7 @@ void GlobeView::Impl::count() {
   stats.patches = static_cast<int>(first.patches().size());
   for (const SelectedPatch& patch : first.patches()) stats.band_patches += patch.in_band ? 1 : 0;
   stats.patches_uncovered = first.coverage().uncovered;
+  stats.ground_left_out = ground.left_out;
   if (globe->ground_pictures) {
     stats.gpu_bytes += globe->ground_pictures->bytes();
     stats.gpu_memory_refused = stats.gpu_memory_refused || globe->ground_pictures->memory_refused();

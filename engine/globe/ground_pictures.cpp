@@ -139,8 +139,13 @@ GroundJob GroundPictures::job(const ViewGround::Want& want) const {
 void GroundPictures::ask(const std::vector<const ViewGround*>& views) {
   std::deque<GroundJob> jobs;
   views_ = 0;
+  pixels_ = 0.0;
   const auto is_drawn = [&](const ViewGround* view) { return view->planned + turns(views.size()) > plans_; };
-  for (const ViewGround* view : views) views_ += is_drawn(view) ? 1U : 0U;
+  for (const ViewGround* view : views) {
+    if (!is_drawn(view)) continue;
+    ++views_;
+    pixels_ += view->pixels;
+  }
   for (const bool urgent : {true, false}) {
     for (const ViewGround* view : views) {
       for (const ViewGround::Want& want : view->wants) {

@@ -26,7 +26,9 @@ struct ViewGround {
   PatchGround gpu;
   std::vector<Want> wants;    ///< pictures that the last frame needs and that are not there or out of date
   std::uint64_t planned = 0;  ///< number of the last GroundPictures::plan(); 0: none
+  double pixels = 0.0;        ///< size of the view
   int coarser = 0;            ///< steps by which pictures are coarser for lack of room
+  int left_out = 0;           ///< squares without a picture for lack of room
 };
 
 /// A view's patches, for GroundPictures::plan().
@@ -90,6 +92,8 @@ class GroundPictures {
   [[nodiscard]] bool meets(const PatchId& id);
   [[nodiscard]] GroundJob job(const ViewGround::Want& want) const;
   [[nodiscard]] bool is_needed(const Entry& entry) const { return entry.needed + turns(views_) > plans_; }
+  /// Pictures that a view of this size may need.
+  [[nodiscard]] std::size_t room(double pixels) const;
   /// Plans of all views in which a view that is drawn has one.
   [[nodiscard]] static std::size_t turns(std::size_t views) { return views < 2 ? 1 : 4 * views; }
   bool put(const GroundPicture& picture, Entry& entry);
@@ -101,7 +105,8 @@ class GroundPictures {
   std::unordered_map<PatchId, Entry, PatchIdHash> entries_;
   std::unordered_map<PatchId, bool, PatchIdHash> meets_;  ///< answers since the last change
   std::uint64_t revision_ = 1, plans_ = 0;
-  std::size_t views_ = 1;  ///< views that share the room
+  std::size_t views_ = 1;  ///< views that share the room, by their pixels
+  double pixels_ = 0.0;    ///< of all these views
 };
 
 }  // namespace terrella

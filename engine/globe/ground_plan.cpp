@@ -41,11 +41,11 @@ PatchId ancestor(const PatchId& id, int up) {
 /// Plans one view: a patch has the pictures of its own square or of its parts, or the picture of a larger square.
 class GroundPictures::Planner {
  public:
-  Planner(GroundPictures& pictures, const GroundView& view, int coarser)
+  Planner(GroundPictures& pictures, const GroundView& view, double pixels, int coarser)
       : pictures_(pictures),
         view_(view),
         coarser_(std::pow(kCoarserStep, coarser)),
-        room_(static_cast<std::size_t>(pictures.textures_.capacity()) / std::max<std::size_t>(1, pictures.views_)),
+        room_(pictures.room(pixels)),
         planes_(view_planes(view.view)) {}
 
   /// True if the pictures that the view needs are not more than there is room for.
@@ -75,6 +75,7 @@ class GroundPictures::Planner {
     out.frame.windows.push_back(window);
   }
 
+  [[nodiscard]] int left_out() const { return left_out_; }
   /// Pictures that the patches need and that are not there or out of date.
   void add_wants(std::vector<ViewGround::Want>& wants) const {
     for (const auto& [id, need] : needs_) {
@@ -154,6 +155,7 @@ class GroundPictures::Planner {
     if (out == nullptr) return;
     if (needs_.size() > room_) {
       needs_.erase(place);
+      ++left_out_;
       return;
     }
     Need& need = place->second;
@@ -232,8 +234,17 @@ class GroundPictures::Planner {
   std::vector<Leaf> leaves_;
   int deepest_ = 0;
   bool slanted_ = false;
+  int left_out_ = 0;
   std::map<PatchId, Need> needs_;
 };
+
+// The coarsest pictures of a disc are as many in small views as in large ones.
+std::size_t GroundPictures::room(double pixels) const {
+  constexpr std::size_t kLeast = 16;
+  const auto all = static_cast<std::size_t>(textures_.capacity());
+  const std::size_t views = std::max<std::size_t>(1, views_), least = std::min(kLeast, all / views);
+  return least + static_cast<std::size_t>(double(all - least * views) * pixels / std::max(pixels, pixels_));
+}
 
 // A view that needs more pictures than there is room for takes coarser ones.
 void GroundPictures::plan(const GroundView& view, ViewGround& out) {
@@ -242,12 +253,14 @@ void GroundPictures::plan(const GroundView& view, ViewGround& out) {
   out.frame.cells.clear();
   out.wants.clear();
   out.planned = ++plans_;
-  const auto has_room = [&](int coarser) { return Planner(*this, view, coarser).has_room(); };
+  out.pixels = double(view.view.viewport.width_px) * view.view.viewport.height_px;
+  const auto has_room = [&](int coarser) { return Planner(*this, view, out.pixels, coarser).has_room(); };
   while (out.coarser < kMostCoarser && !has_room(out.coarser)) ++out.coarser;
   while (out.coarser > 0 && has_room(out.coarser - 1)) --out.coarser;
-  Planner planner(*this, view, out.coarser);
+  Planner planner(*this, view, out.pixels, out.coarser);
   for (const SelectedPatch& patch : view.patches) planner.add(patch, out);
   planner.add_wants(out.wants);
+  out.left_out = planner.left_out();
 }
 
 }  // namespace terrella

@@ -43,6 +43,14 @@ class GpuMemory(ProgramTest):
         self.assertRegex(done.stderr, r"--memory 65536: the driver gives \d+ MB for tiles, as many as its array textures hold")
         self.assertNotIn("--memory", self.assert_done(*shot, "--memory", "300").stderr)
 
+    def test_lines_and_areas_without_room_are_told(self):
+        (self.folder / "world.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [
+            [[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]]}))
+        shot = ("render", NATURAL_EARTH, "--objects", "world.geojson", "--camera", "0,0,1e8", "--size", "256x256", "-o", "shot.png")
+        self.assert_fails(DONE_IN_PART, *shot, "--memory", "64",
+                          says=["--memory 64: no room for lines and areas on ", " squares of the ground"])
+        self.assertNotIn("--memory", self.assert_done(*shot).stderr)
+
 
 class LostOutput(ProgramTest):
     def run_into(self, arguments, stdout="/dev/full", redirect=""):

@@ -139,6 +139,38 @@ TEST_F(GroundPicturesTest, WithLittleRoomTheyAreCoarserAndWhole) {
   }
 }
 
+// 8 MiB have room for one picture. A disc needs the pictures of a cube's faces.
+TEST_F(GroundPicturesTest, WhatHasNoRoomIsCounted) {
+  set_bytes(8U << 20);
+  ASSERT_TRUE(globe_->add_objects(
+      {.polygons = {{.rings = {ring_of({{-180, -90}, {180, -90}, {180, 90}, {-180, 90}})}, .fill = kInk}}}));
+  globe_->set_camera(camera_at(47.0, 8.5, 1.0e7));
+  EXPECT_GT(settle(*globe_, kView).ground_left_out, 0);
+  set_bytes(512U << 20);
+  EXPECT_EQ(settle(*globe_, kView).ground_left_out, 0);
+  EXPECT_EQ(picture().at(60, 45)[0], 240);
+}
+
+// A small map beside a large view takes a hundredth of the room, so that the large view stays as fine as it is.
+TEST_F(GroundPicturesTest, ViewsShareTheRoomByTheirPixels) {
+  std::vector<Geodetic> comb;
+  for (int k = 0; k < 400; ++k) comb.push_back(on_map(k % 2 == 0 ? 40.0 : 55.0, 7.0 + 0.01 * k));
+  ASSERT_TRUE(globe_->add_objects({.polygons = {{.rings = {comb}, .fill = kInk}}}));
+  globe_->set_camera(camera_at(47.0, 8.5, 2.0e5, 0.0, -30.0));
+  set_bytes(320U << 20);  // 60 pictures; the large view needs 39
+  settle(*globe_, kWide);
+  const Picture alone = picture();
+  const auto map = *GlobeView::create(*globe_);
+  map->set_camera(camera_at(47.0, 8.5, 1.0e6));
+  const OffscreenTarget small({64, 48});
+  for (int k = 0; k < 3; ++k) {
+    const auto soon = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    ASSERT_TRUE(map->render_until_settled(small.framebuffer(), {64, 48}, soon));
+    settle(*globe_, kWide);
+  }
+  EXPECT_EQ(picture().rgba, alone.rgba);
+}
+
 TEST_F(GroundPicturesTest, ASmallerBudgetFreesThem) {
   ASSERT_TRUE(globe_->add_objects({.polygons = {kEurope}}));
   globe_->set_camera(camera_at(47.0, 8.5, 2.0e5, 0.0, -10.0));

@@ -211,6 +211,10 @@ GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
 
 // A layer of small tiles has few bytes of slots in any driver; the default asks for no certain number.
 std::string memory_note(std::size_t memory_mb, const FrameStats& stats) {
+  if (stats.ground_left_out > 0) {
+    return fmt::format("--memory {}: no room for lines and areas on {} squares of the ground; they are left out there",
+                       memory_mb, stats.ground_left_out);
+  }
   const std::size_t granted_mb = stats.gpu_bytes_granted >> 20;
   // Slots fill whole layers of an array.
   const bool is_less = memory_mb > SceneOptions().memory_mb && granted_mb < memory_mb - memory_mb / 100;

@@ -57,8 +57,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// Converts the options for the globe. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
-/// Says what the driver gives for tiles, if that is less than --memory asks for, or if it refused memory; else empty.
-/// thread: any
+/// Says what --memory leaves out on the ground, or what the driver gives for tiles, if that is less than --memory asks
+/// for, or if it refused memory; else empty. thread: any
 [[nodiscard]] std::string memory_note(std::size_t memory_mb, const FrameStats& stats);
 /// Sets --paper-a and --band, which GlobeOptions does not have. thread: main
 void set_paper_texturing(Globe& globe, const SceneOptions& options);
