@@ -18,6 +18,7 @@ constexpr unsigned kMostPainters = 8;
 
 struct GroundPainter::Shared {
   std::shared_ptr<ArrivalBell> bell;
+  Paint work;
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::condition_variable asked;
@@ -27,8 +28,9 @@ struct GroundPainter::Shared {
   std::vector<PaintedGround> done;
 };
 
-GroundPainter::GroundPainter(std::shared_ptr<ArrivalBell> bell) : shared_(std::make_shared<Shared>()) {
+GroundPainter::GroundPainter(std::shared_ptr<ArrivalBell> bell, Paint paint) : shared_(std::make_shared<Shared>()) {
   shared_->bell = std::move(bell);
+  shared_->work = std::move(paint);
 }
 
 GroundPainter::~GroundPainter() {
@@ -48,7 +50,7 @@ void GroundPainter::paint(Shared& shared, std::unique_lock<std::mutex>& lock, Gr
   lock.unlock();
   PaintedGround done{job.id, job.stretch, job.revision, {}};
   try {
-    done.picture = paint_ground(square_of(job.id), job.layers, job.stretch, shared.stop, canvas);
+    done.picture = shared.work(job, shared.stop, canvas);
   } catch (const std::bad_alloc&) {
     done.is_painted = false;
     canvas.forget();

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cmath>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -41,7 +43,10 @@ struct PaintedGround {
 /// paints one picture. The destructor stops the threads and does not wait. thread: main
 class GroundPainter {
  public:
-  explicit GroundPainter(std::shared_ptr<ArrivalBell> bell);
+  /// Paints a picture, perhaps on several threads at once. Ends early once the flag is set.
+  using Paint = std::function<GroundPicture(const GroundJob&, const std::atomic<bool>& stop, GroundCanvas&)>;
+
+  explicit GroundPainter(std::shared_ptr<ArrivalBell> bell, Paint paint = paint_job);
   ~GroundPainter();
   GroundPainter(const GroundPainter&) = delete;
   GroundPainter& operator=(const GroundPainter&) = delete;
@@ -54,6 +59,9 @@ class GroundPainter {
 
  private:
   struct Shared;
+  static GroundPicture paint_job(const GroundJob& job, const std::atomic<bool>& stop, GroundCanvas& canvas) {
+    return paint_ground(square_of(job.id), job.layers, job.stretch, stop, canvas);
+  }
   void start();
   static void paint(Shared& shared, std::unique_lock<std::mutex>& lock, GroundCanvas& canvas);
   static void work(const std::shared_ptr<Shared>& shared);

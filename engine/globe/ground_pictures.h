@@ -106,7 +106,7 @@ class GroundPictures {
   std::unordered_map<PatchId, bool, PatchIdHash> meets_;  ///< answers since the last change
   std::uint64_t revision_ = 1, plans_ = 0;
   std::size_t views_ = 1;  ///< views that share the room, by their pixels
-  double pixels_ = 0.0;    ///< of all these views
+  double pixels_ = 0.0;    ///< sum over these views
 };
 
 }  // namespace terrella
