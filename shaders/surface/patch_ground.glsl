@@ -12,6 +12,9 @@ const float kPictureSide = 256.0, kPictureRim = 4.0;
 // lines behind a crest would show before it.
 const float kLongestFullPixel = 6.0;
 
+// Texels of the coarsest mip. A third of a pixel on a crest is often longer, and then lies far behind the crest.
+const float kLongestThird = 16.0;
+
 // A picture's texels under a pixel: the place of its middle, and the changes along its sides.
 struct OnPicture {
   vec2 at, a, b;
@@ -26,7 +29,9 @@ vec4 areas_on(OnPicture p, float slot) {
 #if defined(SLANTED)
   float along_a = dot(p.a, p.a), along_b = dot(p.b, p.b);
   vec2 third = (along_a > along_b ? p.a : p.b) / 3.0;
-  float level = 0.5 * log2(max(dot(third, third), 1.0));
+  float long_sq = max(dot(third, third), 1.0);
+  third *= min(1.0, kLongestThird * inversesqrt(long_sq));
+  float level = 0.5 * log2(long_sq);
   vec4 mean = (fill_tap(slot, p.at - third, level) + fill_tap(slot, p.at, level) + fill_tap(slot, p.at + third, level)) / 3.0;
 #else
   vec4 mean = fill_tap(slot, p.at, 0.0);

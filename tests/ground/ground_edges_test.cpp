@@ -46,6 +46,9 @@ const EdgeCase kEdges[] = {
     {"1 times relief, tilted", 46.0, 7.0, 0.45, 1e5, -10.0, 1.0},
     {"5 times relief, tilted", 46.0, 7.0, 0.45, 1e5, -10.0, 5.0},
     {"20 times relief, tilted", 46.0, 7.0, 0.45, 1e5, -10.0, 20.0},
+    {"20 times relief, tilted, at a pole", 90.0, 0.0, 0.45, 1e5, -10.0, 20.0},
+    {"20 times relief, tilted, over the antimeridian", 10.0, 180.0, 0.45, 1e5, -10.0, 20.0},
+    {"20 times relief, at the limb", 46.0, 7.0, 12.0, 2.6e6, -50.0, 20.0, 13.0},
 };
 
 glm::dvec3 normal_at(double lat_deg, double lon_deg) {
@@ -288,8 +291,8 @@ TEST_F(GroundEdgesTest, AreasAndLinesEndWhereRaysMeetTheirEdges) {
       });
     }
     const double most_px = c.pitch_deg == -90.0 ? 0.5 : 1.0;
-    EXPECT_GT(fills, 60);
-    EXPECT_GT(lines, 30);
+    EXPECT_GT(fills, 30);
+    EXPECT_GT(lines, 15);
     EXPECT_LE(fill_px, most_px);
     EXPECT_LE(line_px, most_px);
     EXPECT_LE(width_px, most_px);
