@@ -2,19 +2,29 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "tiles/late_workers.h"
 
 namespace terrella {
 
-ObjectLayer::Cutting::Cutting(CutJob job, const std::shared_ptr<ArrivalBell>& bell)
-    : size_(job.size()),
-      worker_(std::async(std::launch::async, [job = std::move(job), shared = shared_, bell]() mutable {
-        shared->cut = cut_objects(std::move(job), shared->stop);
-        bell->ring();
-      })) {}
+ObjectLayer::Cutting::Cutting(CutJob job, const std::shared_ptr<ArrivalBell>& bell) : size_(job.size()) {
+  auto work = [job = std::make_shared<CutJob>(std::move(job)), shared = shared_, bell] {
+    try {
+      shared->cut = cut_objects(std::move(*job), shared->stop);
+    } catch (...) {
+      shared->fault = std::current_exception();
+    }
+    shared->done = true;
+    bell->ring();
+  };
+  try {
+    worker_ = std::async(std::launch::async, work);
+  } catch (const std::system_error&) {
+    work();  // The system has no thread left.
+  }
+}
 
 ObjectLayer::Cutting::~Cutting() {
   if (!worker_.valid()) return;
@@ -22,8 +32,9 @@ ObjectLayer::Cutting::~Cutting() {
   end_late(std::move(worker_));
 }
 
-bool ObjectLayer::Cutting::is_done() const {
-  return worker_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+CutObjects ObjectLayer::Cutting::take() {
+  if (shared_->fault) std::rethrow_exception(shared_->fault);
+  return std::move(shared_->cut);
 }
 
 std::size_t ObjectLayer::cut(Version& version) {
@@ -103,12 +114,16 @@ void ObjectLayer::set_opacity(double opacity) {
 
 std::size_t ObjectLayer::take_cuts(Version& version) {
   std::size_t size = 0;
-  for (Cutting& cutting : version.cutting) {
-    if (!cutting.is_done()) continue;
-    size += cutting.size();
-    version.objects.place(cutting.take());
+  for (auto at = version.cutting.begin(); at != version.cutting.end();) {
+    if (!at->is_done()) {
+      ++at;
+      continue;
+    }
+    Cutting done = std::move(*at);
+    at = version.cutting.erase(at);
+    size += done.size();
+    version.objects.place(done.take());
   }
-  std::erase_if(version.cutting, [](const Cutting& cutting) { return cutting.is_done(); });
   return size;
 }
 

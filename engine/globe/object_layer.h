@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <exception>
 #include <future>
 #include <memory>
 #include <string>
@@ -56,14 +58,16 @@ class ObjectLayer {
     ~Cutting();
     Cutting(Cutting&&) = default;
     Cutting& operator=(Cutting&&) = default;
-    [[nodiscard]] bool is_done() const;
-    [[nodiscard]] CutObjects take() { return std::move(shared_->cut); }
+    [[nodiscard]] bool is_done() const { return shared_->done; }
+    /// The objects that were cut. Call it once, after is_done(). Throws what the job threw.
+    [[nodiscard]] CutObjects take();
     [[nodiscard]] std::size_t size() const { return size_; }
 
    private:
     struct Shared {
-      std::atomic<bool> stop = false;
+      std::atomic<bool> stop = false, done = false;
       CutObjects cut;
+      std::exception_ptr fault;
     };
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
     std::size_t size_;

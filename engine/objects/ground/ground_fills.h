@@ -22,8 +22,8 @@ class GroundFills {
   using Samples = std::array<std::uint32_t, std::size_t{kSamples} * kSamples>;
   struct Memory {
     std::vector<Line> toggles = std::vector<Line>(kAcross);  ///< all 0 between two pictures
-    std::vector<std::uint32_t> colors;                       ///< of texels whose samples are alike
-    std::vector<std::uint32_t> parted;                       ///< of the others: place in samples, counted from 1
+    std::vector<std::uint32_t> colors;                       ///< colours of texels whose samples are alike
+    std::vector<std::uint32_t> parted;                       ///< places in samples of the other texels, counted from 1
     std::vector<Samples> samples;
   };
 

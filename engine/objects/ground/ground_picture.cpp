@@ -170,6 +170,11 @@ void GroundLines::piece(glm::dvec2 a, glm::dvec2 b) {
   constexpr int kSide = GroundPicture::kSide_px;
   const double length = std::hypot(b.x - a.x, b.y - a.y);
   const glm::dvec2 way = length > 0.0 ? (b - a) / length : glm::dvec2(1.0, 0.0);
+  // A piece that goes on from the last one with a turn under 37 degrees starts without a round end.
+  constexpr double kCosineOfATurn = 0.8;
+  const bool goes_on = a == last_end_ && glm::dot(last_way_, way) > kCosineOfATurn;
+  last_end_ = b;
+  last_way_ = way;
   const auto row = [](double v) { return static_cast<int>(std::clamp(std::floor(v), -1.0, double(kSide))); };
   const int south = std::max(0, row(std::min(a.y, b.y) - reach_)),
             north = std::min(kSide - 1, row(std::max(a.y, b.y) + reach_));
@@ -192,8 +197,11 @@ void GroundLines::piece(glm::dvec2 a, glm::dvec2 b) {
       // Beside the piece, and where it nearly meets the texel's middle, the direction is across the piece.
       const bool across = along == there || away < kNearEnd_px;
       const glm::vec2 direction = across ? glm::vec2(-way.y, way.x) : to / away;
-      offer({away, std::max(0.0F, away - half_width_), across ? to.x * direction.x + to.y * direction.y : away,
-             direction, color_, half_width_, owner_, !across},
+      const bool joint = goes_on && there <= 0.0;
+      constexpr float kNearer = 0.9999F;  // than the round end of the last piece, which is as far away
+      offer({joint ? kNearer * away : away, std::max(0.0F, away - half_width_),
+             across ? to.x * direction.x + to.y * direction.y : away, direction, color_, half_width_, owner_,
+             !across && !joint},
             texels_[static_cast<std::size_t>(y * kSide + x)]);
     }
   }
