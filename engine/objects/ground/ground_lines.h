@@ -52,7 +52,7 @@ class GroundLines {
   float stretch_;
   float half_width_ = 0.0F;
   std::uint32_t color_ = 0, owner_ = 0;
-  glm::dvec2 last_end_{-1e9}, last_way_{0.0};  ///< of the last piece
+  glm::dvec2 last_end_{-1e9}, last_way_{0.0};  ///< end and direction of the last piece
   Memory& texels_;
 };
 
