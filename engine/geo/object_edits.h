@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,22 @@ struct ObjectChange {
   std::optional<Angle> heading = {};      ///< heading of models and icons
 };
 
+/// Lets the line of a feature go on: places come to its end, and go from its start, as for the track of something that
+/// moves. Costs what comes and goes, whatever the length of the line. New parts lie over lines that were there before.
+/// While fewer than two places are left, nothing is drawn. The feature must have one line.
+struct LineGrowth {
+  ObjectId id = ObjectId::none;
+  std::vector<Geodetic> append = {};
+  std::size_t drop_first = 0;  ///< places that go from the start, after the others have come
+};
+
+/// Gives the line or the area of a feature another shape. The feature must have one of them. Costs the tessellation of
+/// this object; until it is there, the earlier shape is drawn.
+struct ObjectShape {
+  ObjectId id = ObjectId::none;
+  std::vector<std::vector<Geodetic>> ways = {};  ///< the places of a line, or the rings of an area
+};
+
 /// Replaces the text of a feature's labels.
 struct ObjectText {
   ObjectId id = ObjectId::none;
@@ -40,6 +57,8 @@ struct ObjectEdits {
   std::vector<ObjectId> remove = {};
   ObjectScene add = {};  ///< objects to add; an id that is in the layer gets further parts
   std::vector<ObjectMove> moves = {};
+  std::vector<LineGrowth> growths = {};
+  std::vector<ObjectShape> shapes = {};
   std::vector<ObjectChange> changes = {};
   std::vector<ObjectText> texts = {};
   std::optional<ObjectColor> selected_color = {};  ///< new colour of the layer's selected objects; its alpha is unused

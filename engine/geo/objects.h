@@ -79,6 +79,14 @@ struct PointObject {
   HeightMode heights = HeightMode::absolute;
 };
 
+/// The dashes of a line: lengths along it, pixels from 0 to 1,000, both over 0 or both 0. They keep their place on the
+/// ground while the view moves, and have twice or half their length on the ground when it comes nearer or goes away. So
+/// where the ground is seen from above they have 0.5 to 2 times their length, mostly 0.7 to 1.4 times.
+struct LineDashes {
+  float on_px = 0.0F, off_px = 0.0F;  ///< 0: the line has no gaps
+  bool operator==(const LineDashes&) const = default;
+};
+
 /// A line through places, along geodesics of the ellipsoid. The height changes evenly between two places.
 struct LineObject {
   std::vector<Geodetic> places = {};
@@ -87,6 +95,10 @@ struct LineObject {
   bool through_surface = false;
   ObjectIdentity of = {};
   HeightMode heights = HeightMode::absolute;
+  LineDashes dashes = {};
+  float casing_px = 0.0F;                             ///< width of a border on each side, without gaps
+  ObjectColor casing{255, 255, 255};                  ///< colour of the border
+  bool arrow_at_start = false, arrow_at_end = false;  ///< arrow heads, in the line's colour
 };
 
 /// An area with holes: all that an odd number of rings encloses. geo/great_circle.h defines edges, ±180° and poles. The
@@ -177,6 +189,11 @@ struct ObjectScene {
 [[nodiscard]] inline bool is_extruded(const PolygonObject& polygon) { return polygon.extrude_m > 0.0; }
 [[nodiscard]] inline bool is_draped(const PolygonObject& polygon) {
   return polygon.heights == HeightMode::clamp_to_ground && !is_extruded(polygon);
+}
+
+/// True if a line has a border.
+[[nodiscard]] inline bool has_casing(const LineObject& line) {
+  return line.casing_px > 0.0F && line.casing.alpha > 0 && line.width_px > 0.0F;
 }
 
 /// True if any place of the object lies under the ground (height < 0). The surface is then drawn over the object. An

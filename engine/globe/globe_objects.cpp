@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "base/range_check.h"
 #include "globe/globe_impl.h"
@@ -28,12 +29,21 @@ constexpr std::size_t kGroundShare = 4;
 
 Status check_opacity(double opacity) { return RangeCheck().in("the opacity", opacity, 0.0, 1.0).result(); }
 
-Status report(const std::vector<ObjectId>& unknown) {
-  if (unknown.empty()) return Done{};
-  const std::string more = unknown.size() == 1 ? "" : fmt::format(" and {} other ids", unknown.size() - 1);
-  return Error{
-      fmt::format("Globe::edit_objects: the layer has no object {}{}; add them first. The other edits are made",
-                  static_cast<std::uint64_t>(unknown.front()), more)};
+Status report(const std::vector<ObjectId>& ids, std::string_view lack, std::string_view cure) {
+  if (ids.empty()) return Done{};
+  const std::string more = ids.size() == 1 ? "" : fmt::format(" and {} other ids", ids.size() - 1);
+  return Error{fmt::format("Globe::edit_objects: {} {}{}; {}. The other edits are made", lack,
+                           static_cast<std::uint64_t>(ids.front()), more, cure)};
+}
+
+Status report(const UnknownObjects& unknown) {
+  if (Status good = report(unknown.ids, "the layer has no object", "add them first"); !good) return good;
+  if (Status good = report(unknown.without_line, "only a feature with one line grows, and such is not", "add one line");
+      !good) {
+    return good;
+  }
+  return report(unknown.without_shape, "only a feature with one line or one area gets another shape, and such is not",
+                "add one, and give a line one way");
 }
 
 }  // namespace
@@ -83,9 +93,13 @@ Status Globe::edit_objects(LayerId layer, ObjectEdits edits) {
   if (Status good = check_objects(edits.add, changed->newest(), edits.remove); !good) {
     return Error{refusal("Globe::edit_objects", good).message + ". No edit is made"};
   }
-  const Status values =
-      RangeCheck().part("moves", take_faulty(edits.moves)).part("changes", take_faulty(edits.changes)).result();
-  std::vector<ObjectId> unknown;
+  const Status values = RangeCheck()
+                            .part("moves", take_faulty(edits.moves))
+                            .part("growths", take_faulty(edits.growths))
+                            .part("shapes", take_faulty(edits.shapes))
+                            .part("changes", take_faulty(edits.changes))
+                            .result();
+  UnknownObjects unknown;
   const bool was_drawn = changed->is_drawn();
   impl_->objects_cut += changed->edit(std::move(edits), unknown);
   impl_->changed = true;

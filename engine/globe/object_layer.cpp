@@ -85,23 +85,29 @@ std::size_t ObjectLayer::follow(const Ellipsoid& ellipsoid, const std::shared_pt
   return size;
 }
 
-std::size_t ObjectLayer::edit(ObjectEdits edits, std::vector<ObjectId>& unknown) {
+std::size_t ObjectLayer::edit(ObjectEdits edits, UnknownObjects& unknown) {
   Version& version = next_ ? *next_ : *now_;
   LayerObjects& objects = version.objects;
   if (edits.selected_color) objects.set_selected_color(selected_color_ = *edits.selected_color);
   for (const ObjectId gone : edits.remove) {
-    if (!objects.remove(gone)) unknown.push_back(gone);
+    if (!objects.remove(gone)) unknown.ids.push_back(gone);
   }
   if (!edits.add.empty()) objects.add(std::move(edits.add));
-  for (const ObjectMove& move : edits.moves) {
-    if (!objects.move(move)) unknown.push_back(move.id);
-  }
-  for (const ObjectChange& change : edits.changes) {
-    if (!objects.change(change)) unknown.push_back(change.id);
-  }
-  for (const ObjectText& text : edits.texts) {
-    if (!objects.set_text(text)) unknown.push_back(text.id);
-  }
+  const auto each = [](const auto& some, auto make, std::vector<ObjectId>& not_made) {
+    for (const auto& one : some) {
+      if (!make(one)) not_made.push_back(one.id);
+    }
+  };
+  each(
+      edits.moves, [&](const ObjectMove& move) { return objects.move(move); }, unknown.ids);
+  each(
+      edits.growths, [&](const LineGrowth& growth) { return objects.grow(growth); }, unknown.without_line);
+  each(
+      edits.shapes, [&](const ObjectShape& shape) { return objects.reshape(shape); }, unknown.without_shape);
+  each(
+      edits.changes, [&](const ObjectChange& change) { return objects.change(change); }, unknown.ids);
+  each(
+      edits.texts, [&](const ObjectText& text) { return objects.set_text(text); }, unknown.ids);
   return cut(version);
 }
 
@@ -124,7 +130,8 @@ std::size_t ObjectLayer::take_cuts(Version& version) {
     size += done.size();
     version.objects.place(done.take());
   }
-  return size;
+  version.objects.ask_for_grown();
+  return size + cut(version);
 }
 
 std::size_t ObjectLayer::take_cuts() {

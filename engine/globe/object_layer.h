@@ -15,6 +15,11 @@
 
 namespace terrella {
 
+/// Features of edits that the layer does not have, or that have not the one line or area that the edit needs.
+struct UnknownObjects {
+  std::vector<ObjectId> ids, without_line, without_shape;
+};
+
 /// An object layer of a globe. Large cuts are made by workers. A new scene is drawn once its cuts are there; the
 /// earlier scene is drawn until then. thread: main
 class ObjectLayer {
@@ -31,8 +36,9 @@ class ObjectLayer {
   /// Moves what stands on the ground to its height now. No relief: the ellipsoid. Returns the number of objects that
   /// were cut at once.
   std::size_t follow(const Ellipsoid& ellipsoid, const std::shared_ptr<const Relief>& relief);
-  /// Makes edits. Appends the ids that the layer does not have. Returns the number of objects that were cut at once.
-  std::size_t edit(ObjectEdits edits, std::vector<ObjectId>& unknown);
+  /// Makes edits. Returns the number of objects that were cut at once. What grows is cut by take_cuts(), once for all
+  /// edits before a frame.
+  std::size_t edit(ObjectEdits edits, UnknownObjects& unknown);
   void set_opacity(double opacity);
   [[nodiscard]] double opacity() const { return opacity_; }
 
@@ -84,7 +90,7 @@ class ObjectLayer {
   };
   std::size_t follow(Version& version, const Ellipsoid& ellipsoid, const std::shared_ptr<const Relief>& relief);
   std::size_t cut(Version& version);
-  static std::size_t take_cuts(Version& version);
+  std::size_t take_cuts(Version& version);
 
   std::shared_ptr<ArrivalBell> bell_;
   double opacity_ = 1.0;

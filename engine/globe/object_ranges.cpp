@@ -12,7 +12,7 @@
 namespace terrella {
 namespace {
 
-constexpr double kMostSize_px = 1e6;
+constexpr double kMostSize_px = 1e6, kMostDash_px = 1000.0;
 
 Status all_good() { return Done{}; }
 
@@ -60,6 +60,13 @@ Status check_model(const MeshModel* model) {
   return Done{};
 }
 
+Status check_places(const std::vector<Geodetic>& places) {
+  for (const Geodetic& place : places) {
+    if (Status good = check_place(place); !good) return good;
+  }
+  return Done{};
+}
+
 /// Checks one object after the other. Remembers the models and icons that it has checked.
 class Checker {
  public:
@@ -81,6 +88,11 @@ class Checker {
         .part("a place", check_places(line.places))
         .known("its heights", line.heights, HeightMode::relative_to_ground)
         .in("its width", line.width_px, 0.0, kMostSize_px, " px")
+        .in("the width of its casing", line.casing_px, 0.0, kMostSize_px, " px")
+        .in("the length of its dashes", line.dashes.on_px, 0.0, kMostDash_px, " px")
+        .in("the length of its gaps", line.dashes.off_px, 0.0, kMostDash_px, " px")
+        .that((line.dashes.on_px > 0.0F) == (line.dashes.off_px > 0.0F),
+              "its dashes or its gaps have the length 0; give both, or none")
         .result();
   }
   Status operator()(const PolygonObject& polygon) {
@@ -112,12 +124,6 @@ class Checker {
 
  private:
   [[nodiscard]] bool is_new(const void* shared) { return checked_.insert(shared).second; }
-  [[nodiscard]] static Status check_places(const std::vector<Geodetic>& places) {
-    for (const Geodetic& place : places) {
-      if (Status good = check_place(place); !good) return good;
-    }
-    return Done{};
-  }
 
   std::unordered_set<const void*> checked_;
 };
@@ -154,6 +160,16 @@ Status check_values(const ObjectChange& change) {
       .above("a size", change.size_px.value_or(1.0F), 0.0, kMostSize_px, " px")
       .finite("the heading of a change", change.heading.value_or(Angle{}).rad())
       .result();
+}
+
+Status check_values(const LineGrowth& growth) {
+  return RangeCheck().part("a place of a growth", check_places(growth.append)).result();
+}
+
+Status check_values(const ObjectShape& shape) {
+  RangeCheck check;
+  for (const auto& way : shape.ways) check.part("a place of a shape", check_places(way));
+  return check.result();
 }
 
 }  // namespace terrella

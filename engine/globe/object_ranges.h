@@ -11,5 +11,7 @@ namespace terrella {
 [[nodiscard]] Status check_values(const ObjectScene& scene);
 [[nodiscard]] Status check_values(const ObjectMove& move);
 [[nodiscard]] Status check_values(const ObjectChange& change);
+[[nodiscard]] Status check_values(const LineGrowth& growth);
+[[nodiscard]] Status check_values(const ObjectShape& shape);
 
 }  // namespace terrella

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geo/ellipsoid.h"
@@ -19,14 +20,16 @@ inline constexpr std::size_t kMostFillTriangles = 8'000'000;
 
 /// A line, cut so that it follows the ellipsoid: in the layout for the GPU, without a colour. Pieces are 1 px wide.
 struct LineCut {
-  std::uint32_t index = 0;  ///< index of the line in its layer
-  std::vector<LineVertex> vertices;
+  std::uint32_t index = 0;   ///< index of the line in its layer
+  std::uint32_t number = 0;  ///< Kept::asked_number
+  std::vector<LineVertex> vertices = {};
   std::shared_ptr<const GroundShape> ground = {};  ///< in place of vertices, if the line lies on the ground
 };
 
 /// An area, cut likewise: its fill and its outlines.
 struct AreaCut {
-  std::uint32_t index = 0;  ///< index of the area in its layer
+  std::uint32_t index = 0;   ///< index of the area in its layer
+  std::uint32_t number = 0;  ///< Kept::asked_number
   std::vector<FillVertex> fill = {};
   std::vector<std::uint32_t> triangles = {};
   std::vector<SolidVertex> solid = {};  ///< in place of these two, if the area is extruded
@@ -41,12 +44,14 @@ struct AreaCut {
 /// Lines and areas to be cut, which is the slow part of drawing them. Only the places of the objects are read.
 struct CutJob {
   struct Line {
-    std::uint32_t index;
+    std::uint32_t index, number;
     std::shared_ptr<const LineObject> shape;
-    bool on_ground;  ///< lies_on_ground()
+    bool on_ground;         ///< lies_on_ground()
+    double from_rad = 0.0;  ///< length of the line before its first place, as an angle
+    bool is_part = false;   ///< part of a line that grows
   };
   struct Area {
-    std::uint32_t index;
+    std::uint32_t index, number;
     std::shared_ptr<const PolygonObject> shape;
     bool fill, outline;  ///< parts that have a colour
     double height_m;     ///< mean height of the places

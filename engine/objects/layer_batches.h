@@ -37,8 +37,9 @@ struct LayerBatches {
   SlotBatch<DotInstance> markers;  ///< discs
   SlotBatch<IconInstance> icons;
   std::vector<std::shared_ptr<const IconImage>> icon_images;
-  float icons_below_px = 0.0F;  ///< the most that an icon reaches down from its place
-  SlotBatch<LineVertex> lines;  ///< n vertices contain n - 3 pieces
+  float icons_below_px = 0.0F;    ///< the most that an icon reaches down from its place
+  SlotBatch<LineVertex> casings;  ///< borders of lines, below all lines
+  SlotBatch<LineVertex> lines;    ///< n vertices contain n - 3 pieces
   SlotBatch<FillVertex> fill_vertices;
   SlotBatch<std::uint32_t> fill_indices;
   std::array<std::vector<FillRun>, Batch<char>::kBuckets> fill_runs;  ///< per bucket of fill_indices

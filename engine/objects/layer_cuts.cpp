@@ -7,6 +7,9 @@
 namespace terrella {
 namespace {
 
+/// Vertices of a part of a line that grows come in multiples of this.
+constexpr std::size_t kGrownVertices = 20;
+
 void add_run(std::vector<FillRun>& runs, const FillRun& run) {
   if (run.count == 0) return;
   if (!runs.empty() && runs.back().height_m == run.height_m && runs.back().first + runs.back().count == run.first) {
@@ -38,7 +41,8 @@ void LayerObjects::put_fill(KeptArea& area, std::span<const FillVertex> fill, st
 void LayerObjects::ask_for(std::uint32_t index, KeptLine& line) {
   if (line.asked || line.object->color.alpha == 0 || !(line.object->width_px > 0.0F)) return;
   line.asked = true;
-  job_.lines.push_back({index, as_cut(line.object), lies_on_ground(*line.object, ground_)});
+  job_.lines.push_back({index, ++line.asked_number, as_cut(line.object), lies_on_ground(*line.object, ground_),
+                        line.part.from_rad, line.part.is_part});
 }
 
 // An outline lies at the height of the fill, so both are cut together.
@@ -50,8 +54,16 @@ void LayerObjects::ask_for(std::uint32_t index, KeptArea& area) {
   area.asked_outline = area.asked_outline || outline;
   const std::shared_ptr<const PolygonObject> shape = as_cut(area.object);
   area.height_m = mean_height_m(*shape);
-  job_.areas.push_back(
-      {index, shape, area.asked_fill, area.asked_outline, area.height_m, lies_on_ground(*area.object, ground_)});
+  job_.areas.push_back({index, ++area.asked_number, shape, area.asked_fill, area.asked_outline, area.height_m,
+                        lies_on_ground(*area.object, ground_)});
+}
+
+void LayerObjects::ask_for_grown() {
+  for (const std::uint32_t index : std::exchange(grown_, {})) {
+    KeptLine& line = lines_[index];
+    line.grown = line.asked = false;
+    if (!line.removed) ask_for(index, line);
+  }
 }
 
 CutJob LayerObjects::take_job() {
@@ -69,17 +81,28 @@ void LayerObjects::place(CutObjects cut) {
 
 void LayerObjects::place(LineCut& cut) {
   KeptLine& line = lines_[cut.index];
-  if (line.removed) return;
+  if (line.removed || cut.number < line.placed_number) return;
+  line.placed_number = cut.number;
   if (line.ground.lies != (cut.ground != nullptr)) drop({ObjectKind::line, cut.index});
   line.ground.lies = cut.ground != nullptr;
   line.ground.shape = std::move(cut.ground);
-  if (!line.ground.lies) put(line, cut.vertices);
+  if (!line.ground.lies) {
+    line.part.vertices = cut.vertices.size();
+    // Parts that grow keep their room.
+    if (line.part.is_part)
+      cut.vertices.resize((cut.vertices.size() / kGrownVertices + 1) * kGrownVertices, LineVertex{});
+    put(batches_.lines, line.slot, bucket_of(line), cut.vertices);
+    for (LineVertex& vertex : cut.vertices) vertex.on = vertex.off = 0;  // a casing has no gaps
+    if (has_casing(*line.object)) put(batches_.casings, line.casing, casing_bucket(line), cut.vertices);
+    join(line);
+  }
   draw(line);
 }
 
 void LayerObjects::place(AreaCut& cut) {
   KeptArea& area = areas_[cut.index];
-  if (area.removed) return;
+  if (area.removed || cut.number < area.placed_number) return;
+  area.placed_number = cut.number;
   replaced_ += area.fill.count + area.outline.count > 0 ? 1U : 0U;
   if (!area.ground.lies || !cut.ground) drop({ObjectKind::polygon, cut.index});
   triangles_ += triangles_of(cut);
@@ -121,6 +144,7 @@ void LayerObjects::place_all_again() {
   for (KeptLine& line : lines_) {
     if (line.removed) continue;
     line.ground.place = GroundBatch::kNone;
+    line.casing = batches_.casings.add(casing_bucket(line), old.casings.at(line.casing));
     line.slot = batches_.lines.add(bucket_of(line), old.lines.at(line.slot));
     draw(line);
   }

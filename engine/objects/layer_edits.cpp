@@ -7,18 +7,17 @@
 namespace terrella {
 
 bool LayerObjects::move(const ObjectMove& move) {
-  const auto found = parts_.find(static_cast<std::uint64_t>(move.id));
-  if (found == parts_.end()) return false;
-  for (PartRef part = found->second; part; part = kept(part).next) {
+  return each_part(move.id, [&](PartRef part) {
     if (part.kind == ObjectKind::label) {
       KeptLabel& label = labels_[part.index];
       --label_counts_[is_underground(label.object) ? 1 : 0];
       label.object.place = move.place;
       ++label_counts_[is_underground(label.object) ? 1 : 0];
       label.place_m = place_of(move.place, label.object.heights);
-      continue;
+      return;
     }
     if (part.kind == ObjectKind::point) {
+      if (points_[part.index].arrow != LineEnd::none) return;
       points_[part.index].object.place = move.place;
       points_[part.index].object.icon.heading = move.heading.value_or(points_[part.index].object.icon.heading);
       points_[part.index].place_m = place_of(move.place, points_[part.index].object.heights);
@@ -27,36 +26,29 @@ bool LayerObjects::move(const ObjectMove& move) {
       meshes_[part.index].object.heading = move.heading.value_or(meshes_[part.index].object.heading);
       meshes_[part.index].place_m = place_of(move.place, meshes_[part.index].object.heights);
     } else {
-      continue;
+      return;
     }
     draw_again(part);
     if (index_) index_part(part);
-  }
-  return true;
+  });
 }
 
 bool LayerObjects::change(const ObjectChange& change) {
-  const auto found = parts_.find(static_cast<std::uint64_t>(change.id));
-  if (found == parts_.end()) return false;
-  for (PartRef part = found->second; part; part = kept(part).next) {
+  return each_part(change.id, [&](PartRef part) {
     Kept& object = kept(part);
     object.visible = change.visible.value_or(object.visible);
     object.selected = change.selected.value_or(object.selected);
     change_part(part, change);
     draw_again(part);
-  }
-  return true;
+  });
 }
 
 bool LayerObjects::set_text(const ObjectText& text) {
-  const auto found = parts_.find(static_cast<std::uint64_t>(text.id));
-  if (found == parts_.end()) return false;
-  for (PartRef part = found->second; part; part = kept(part).next) {
-    if (part.kind != ObjectKind::label) continue;
+  return each_part(text.id, [&](PartRef part) {
+    if (part.kind != ObjectKind::label) return;
     labels_[part.index].object.text = text.text;
     labels_[part.index].text = label_text(text.text);
-  }
-  return true;
+  });
 }
 
 const ObjectFeature* LayerObjects::feature(ObjectId id) const {
@@ -77,7 +69,9 @@ const ObjectFeature* LayerObjects::feature(ObjectId id) const {
 
 void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
   if (change.size_px) most_reach_px_ = std::max(most_reach_px_, 0.5 * double(*change.size_px));
-  if (part.kind == ObjectKind::point) {
+  if (part.kind == ObjectKind::point && points_[part.index].arrow != LineEnd::none) {
+    change_arrow(points_[part.index], change);
+  } else if (part.kind == ObjectKind::point) {
     PointObject& point = points_[part.index].object;
     ObjectColor& color = is_icon(point) ? point.icon.tint : point.color;
     color = change.color.value_or(color);

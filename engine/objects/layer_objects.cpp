@@ -72,6 +72,7 @@ void LayerObjects::add(ObjectScene scene) {
     most_reach_px_ = std::max(most_reach_px_, 0.5 * double(object.width_px));
     ask_for(index, lines_[index]);
     link({ObjectKind::line, index}, object.of.id);
+    add_arrows(index);
   }
   for (PolygonObject& polygon : scene.polygons) {
     const std::uint32_t index = keep(ObjectKind::polygon, std::make_shared<PolygonObject>(std::move(polygon)), areas_);
@@ -125,15 +126,9 @@ void LayerObjects::order_labels(std::size_t first) {
 }
 
 bool LayerObjects::remove(ObjectId id) {
-  const auto found = parts_.find(static_cast<std::uint64_t>(id));
-  if (found == parts_.end()) return false;
-  PartRef part = found->second;
-  parts_.erase(found);
-  while (part) {
-    const PartRef next = kept(part).next;
-    take_away(part);
-    part = next;
-  }
+  if (!each_part(id, [this](PartRef part) { take_away(part); })) return false;
+  parts_.erase(static_cast<std::uint64_t>(id));
+  tracks_.erase(static_cast<std::uint64_t>(id));
   return true;
 }
 
@@ -154,7 +149,7 @@ bool LayerObjects::has(ObjectPart part) const {
     if (batches_.spheres.ranges.range(part, opaque, ObjectChoice::all).count > 0) return true;
   }
   if (batches_.markers.has(part) || batches_.icons.has(part)) return true;
-  if (batches_.lines.has(part) || batches_.fill_vertices.has(part)) return true;
+  if (batches_.lines.has(part) || batches_.casings.has(part) || batches_.fill_vertices.has(part)) return true;
   if (batches_.solids.has(part)) return true;
   return std::ranges::any_of(batches_.models, [part](const ModelStands& model) { return model.stands.has(part); });
 }
@@ -173,13 +168,13 @@ void LayerObjects::set_selected_color(ObjectColor color) {
   if (std::exchange(selected_color_, color) == color) return;
   for (const auto& [id, first] : parts_) {
     for (PartRef part = first; part; part = kept(part).next) {
-      if (kept(part).selected) draw_again(part);
+      if (kept(part).selected && !kept(part).removed) draw_again(part);
     }
   }
 }
 
 void LayerObjects::tidy() {
-  if (removed_ > kFewRemoved && removed_ > live_ && jobs_out_ == 0 && job_.empty()) {
+  if (removed_ > kFewRemoved && removed_ > live_ && jobs_out_ == 0 && job_.empty() && grown_.empty()) {
     forget_removed();
     place_all_again();
   }
@@ -190,9 +185,9 @@ void LayerObjects::tidy() {
 // The indices of the objects change, and with them everything that names them. A cut that is still being made names
 // objects by their index, so nothing is forgotten while a worker has a job.
 void LayerObjects::forget_removed() {
+  forget_removed_lines();
   const auto forget = [](auto& objects) { std::erase_if(objects, [](const Kept& one) { return one.removed; }); };
   forget(points_);
-  forget(lines_);
   forget(areas_);
   forget(meshes_);
   forget(labels_);
@@ -213,6 +208,7 @@ void LayerObjects::forget_removed() {
   link_all(ObjectKind::polygon, areas_, shared);
   link_all(ObjectKind::mesh, meshes_, own);
   link_all(ObjectKind::label, labels_, own);
+  for (auto& [id, track] : tracks_) find_arrows(ObjectId{id}, track);
   label_order_.clear();
   order_labels(0);
 }

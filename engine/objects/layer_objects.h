@@ -29,6 +29,10 @@ class LayerObjects {
   bool move(const ObjectMove& move);
   bool change(const ObjectChange& change);
   bool set_text(const ObjectText& text);
+  /// False if the feature has not one line. ask_for_grown() puts what has grown into the next job.
+  bool grow(const LineGrowth& growth);
+  /// False if the feature has not one line or area.
+  bool reshape(const ObjectShape& shape);
   void set_selected_color(ObjectColor color);
   /// Sets the factor of alpha of all objects.
   void set_opacity(double opacity);
@@ -36,6 +40,7 @@ class LayerObjects {
   /// Returns the lines and areas to be cut that no job had before.
   [[nodiscard]] CutJob take_job();
   void place(CutObjects cut);
+  void ask_for_grown();
 
   /// True if the height of an object depends on the ground's.
   [[nodiscard]] bool stands_on_ground() const { return on_ground_ > 0; }
@@ -76,6 +81,22 @@ class LayerObjects {
 
  private:
   // layer_objects.cpp
+  /// Calls use(part) for the parts of a feature; false if there is none. Forgets removed parts.
+  template <class Use>
+  bool each_part(ObjectId id, Use use) {
+    const auto found = parts_.find(static_cast<std::uint64_t>(id));
+    if (found == parts_.end()) return false;
+    for (PartRef* at = &found->second; *at;) {
+      Kept& object = kept(*at);
+      if (object.removed) {
+        *at = object.next;
+        continue;
+      }
+      use(*at);
+      at = &object.next;
+    }
+    return true;
+  }
   template <class Object, class List>
   std::uint32_t keep(ObjectKind kind, Object object, List& list);
   void add(PointObject point);
@@ -91,6 +112,7 @@ class LayerObjects {
   [[nodiscard]] std::size_t bucket_of(bool underground, const ObjectColor& color, bool chosen) const;
   [[nodiscard]] std::size_t bucket_of(const KeptPoint& point) const;
   [[nodiscard]] std::size_t bucket_of(const KeptLine& line) const;
+  [[nodiscard]] std::size_t casing_bucket(const KeptLine& line) const;
   [[nodiscard]] std::size_t outline_bucket(const KeptArea& area) const;
   [[nodiscard]] std::size_t fill_bucket(const KeptArea& area) const;
   void drop(PartRef part);
@@ -117,7 +139,7 @@ class LayerObjects {
   // layer_ground.cpp: objects on the ground
   void cut_again_on_other_ground();
   void put_on_ground(KeptOnGround& kept, GroundObject object);
-  void put(KeptLine& line, std::span<const LineVertex> vertices);
+  static void put(SlotBatch<LineVertex>& lines, Slot& slot, std::size_t bucket, std::span<const LineVertex> vertices);
   [[nodiscard]] glm::dvec3 place_of(const Geodetic& place, HeightMode mode) const;
   /// Shares the object if its heights do not depend on the ground.
   template <class Shape>
@@ -131,6 +153,23 @@ class LayerObjects {
   // layer_edits.cpp
   void change_part(PartRef part, const ObjectChange& change);
   void draw_again(PartRef part);
+  // track/layer_tracks.cpp
+  /// The line or the area of a feature; none if it has not exactly one of them.
+  [[nodiscard]] PartRef only_part(ObjectId id);
+  [[nodiscard]] KeptTrack* track_of(ObjectId id);
+  [[nodiscard]] std::uint32_t add_track_part(std::uint32_t like, std::vector<Geodetic> places);
+  [[nodiscard]] static std::vector<Geodetic>& own_places(KeptLine& line);
+  void append(KeptTrack& track, const Geodetic& place);
+  void drop_first(KeptTrack& track, std::size_t count);
+  void divide_first(KeptTrack& track);
+  void note_grown(std::uint32_t index);
+  void join(KeptLine& line);
+  void forget_removed_lines();
+  // track/layer_arrows.cpp
+  void add_arrows(std::uint32_t line);
+  void set_arrow(std::uint32_t point, std::span<const Geodetic> places);
+  static void change_arrow(KeptPoint& arrow, const ObjectChange& change);
+  void find_arrows(ObjectId id, KeptTrack& track);
   // layer_pick.cpp
   void index_all();
   void index_part(PartRef part);
@@ -156,8 +195,11 @@ class LayerObjects {
   Angle length_{};                            ///< length of all lines and outlines together
   std::size_t triangles_ = 0;                 ///< triangles of all fills
   CutJob job_;
-  std::size_t jobs_out_ = 0;  ///< taken, and not placed
-  std::size_t replaced_ = 0;  ///< areas whose earlier cut is still in the batches
+  std::unordered_map<std::uint64_t, KeptTrack> tracks_;
+  std::vector<std::uint32_t> grown_;      ///< lines that grew and that no job has
+  std::vector<std::uint32_t> unindexed_;  ///< lines that grew since the last pick
+  std::size_t jobs_out_ = 0;              ///< taken, and not placed
+  std::size_t replaced_ = 0;              ///< areas whose earlier cut is still in the batches
   Ground ground_;
   std::size_t on_ground_ = 0;
   std::unique_ptr<ObjectIndex> index_;

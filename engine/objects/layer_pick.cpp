@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "objects/layer_objects.h"
 #include "objects/object_shapes.h"
@@ -76,6 +77,7 @@ void LayerObjects::take(PartRef part, ObjectPicker& picker) {
   if (!kept(part).visible) return;
   if (part.kind == ObjectKind::point) {
     const KeptPoint& point = points_[part.index];
+    if (point.arrow != LineEnd::none) return;
     picker.point(point.object, point.place_m, point.number);
   } else if (part.kind == ObjectKind::line) {
     KeptLine& line = lines_[part.index];
@@ -98,6 +100,10 @@ void LayerObjects::take(PartRef part, ObjectPicker& picker) {
 std::optional<PickedObject> LayerObjects::pick(const View& view, const Ground& ground, glm::dvec2 pixel_px,
                                                const PickOptions& options, std::span<const std::uint32_t> labels) {
   if (!index_) index_all();
+  for (const std::uint32_t index : std::exchange(unindexed_, {})) {
+    if (!lines_[index].removed) index_part({ObjectKind::line, index});
+    lines_[index].unindexed = false;
+  }
   std::vector<std::uint32_t> items;
   index_->find(PickCone(view, pixel_px, most_reach_px_ + options.slack_px), items);
   ObjectPicker picker(view, ground, pixel_px, options);

@@ -52,6 +52,10 @@ std::size_t LayerObjects::bucket_of(const KeptLine& line) const {
   return bucket_of(is_underground(*line.object), line.object->color, line.object->through_surface);
 }
 
+std::size_t LayerObjects::casing_bucket(const KeptLine& line) const {
+  return bucket_of(is_underground(*line.object), line.object->casing, line.object->through_surface);
+}
+
 std::size_t LayerObjects::outline_bucket(const KeptArea& area) const {
   return bucket_of(is_underground(*area.object), area.object->stroke, area.object->through_surface);
 }
@@ -69,7 +73,13 @@ IconInstance LayerObjects::icon(const KeptPoint& point) const {
   } else {
     item.up = glm::vec4(std::sin(icon.heading.rad()), std::cos(icon.heading.rad()), 0.0, 1.0);
   }
-  item.color.alpha = drawn(icon.tint, point).alpha;
+  const ObjectColor color = drawn(icon.tint, point);
+  if (point.arrow != LineEnd::none) {
+    item.color = color;
+    if (!point.has_direction) item.color.alpha = 0;
+    return item;
+  }
+  item.color.alpha = color.alpha;
   if (point.selected) item.wash = wash_of(selected_color_);
   return item;
 }
@@ -126,6 +136,7 @@ void LayerObjects::drop(PartRef part) {
   } else if (part.kind == ObjectKind::line) {
     put_on_ground(lines_[part.index].ground, {});
     batches_.lines.drop(lines_[part.index].slot);
+    batches_.casings.drop(lines_[part.index].casing);
   } else if (part.kind == ObjectKind::polygon) {
     KeptArea& area = areas_[part.index];
     const bool extruded = is_extruded(*area.object);
@@ -209,15 +220,23 @@ void LayerObjects::color_line(SlotBatch<LineVertex>& lines, Slot& slot, std::siz
   }
   for (LineVertex& vertex : lines.change(slot)) {
     vertex.color = color;
-    if (vertex.width_px > 0.0F) vertex.width_px = width_px;
+    if (vertex.width_px != 0.0F) vertex.width_px = width_px;
   }
 }
 
 void LayerObjects::draw(KeptLine& line) {
   const LineObject& object = *line.object;
   if (line.ground.shape) {
-    return put_on_ground(line.ground, {line.ground.shape, {0, 0, 0, 0}, drawn(object.color, line), object.width_px});
+    return put_on_ground(line.ground,
+                         {.shape = line.ground.shape,
+                          .line = drawn(object.color, line),
+                          .width_px = object.width_px,
+                          .dashes = object.dashes,
+                          .casing = has_casing(object) ? drawn(object.casing, line) : ObjectColor{0, 0, 0, 0},
+                          .casing_px = object.casing_px});
   }
+  color_line(batches_.casings, line.casing, casing_bucket(line), drawn(object.casing, line),
+             object.width_px + 2.0F * object.casing_px);
   color_line(batches_.lines, line.slot, bucket_of(line), drawn(object.color, line), object.width_px);
 }
 
@@ -225,8 +244,10 @@ void LayerObjects::draw(KeptArea& area) {
   const PolygonObject& object = *area.object;
   if (area.ground.shape) {
     const ObjectColor none{0, 0, 0, 0};
-    return put_on_ground(area.ground, {area.ground.shape, area.asked_fill ? drawn(object.fill, area) : none,
-                                       drawn(object.stroke, area), object.stroke_width_px});
+    return put_on_ground(area.ground, {.shape = area.ground.shape,
+                                       .fill = area.asked_fill ? drawn(object.fill, area) : none,
+                                       .line = drawn(object.stroke, area),
+                                       .width_px = object.stroke_width_px});
   }
   color_line(batches_.lines, area.outline, outline_bucket(area), drawn(object.stroke, area), object.stroke_width_px);
   if (area.fill.count == 0) return;

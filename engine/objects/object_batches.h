@@ -51,8 +51,14 @@ struct LineVertex {
   glm::vec3 low_m;
   float width_px;
   ObjectColor color;
+  /// Lengths of a line with gaps (LineDashes): of the line before the vertex, in metres, modulo kDashesWrap of the
+  /// dashes' periods; and of the piece. Else 0.
+  float along_m, length_m;
+  std::uint16_t on, off;  ///< lengths of dashes and gaps, 1/8 px
 };
-static_assert(sizeof(LineVertex) == 32);
+static_assert(sizeof(LineVertex) == 44);
+/// Lengths along dashed lines begin again after this many metres for each pixel of a period.
+inline constexpr double kDashesWrap = 32768.0;
 
 struct FillVertex {
   glm::vec3 high_m;

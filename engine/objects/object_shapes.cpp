@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace terrella {
 namespace {
@@ -14,12 +15,13 @@ using glm::dvec3;
 /// Geodesics on one ellipsoid. Uses the exact form, because the series loses digits on flat bodies such as Saturn.
 class GeodesicWays {
  public:
-  explicit GeodesicWays(const Ellipsoid& ellipsoid) : geodesics_(ellipsoid.a_m(), ellipsoid.f()) {}
+  explicit GeodesicWays(const Ellipsoid& ellipsoid) : ellipsoid_(ellipsoid) {}
 
   /// Calls use(place) for the places at 1/n, 2/n … of the way, without the last.
   template <class Use>
-  void between(const Geodetic& a, const Geodetic& b, int n, Use use) const {
-    const auto way = geodesics_.InverseLine(latitude_deg(a), a.lon.deg(), latitude_deg(b), b.lon.deg());
+  void between(const Geodetic& a, const Geodetic& b, int n, Use use) {
+    if (!geodesics_) geodesics_.emplace(ellipsoid_.a_m(), ellipsoid_.f());
+    const auto way = geodesics_->InverseLine(latitude_deg(a), a.lon.deg(), latitude_deg(b), b.lon.deg());
     for (int k = 1; k < n; ++k) {
       const double part = double(k) / n;
       double lat = 0.0, lon = 0.0;
@@ -34,7 +36,8 @@ class GeodesicWays {
   // Rounding to radians and back may put a latitude beyond the pole.
   static double latitude_deg(const Geodetic& p) { return std::clamp(p.lat.deg(), -90.0, 90.0); }
 
-  GeographicLib::GeodesicExact geodesics_;
+  Ellipsoid ellipsoid_;
+  std::optional<GeographicLib::GeodesicExact> geodesics_;  ///< takes long to make, and short lines need none
 };
 
 Angle between(const Geodetic& a, const Geodetic& b) {
@@ -92,7 +95,7 @@ Angle length_of(const std::vector<Geodetic>& places) {
 
 std::vector<dvec3> line_along_geodesics(const std::vector<Geodetic>& places, const Ellipsoid& ellipsoid, Angle step) {
   if (places.empty()) return {};
-  const GeodesicWays ways(ellipsoid);
+  GeodesicWays ways(ellipsoid);
   const double lift_m = is_underground(places) ? 0.0 : sag_m(ellipsoid, step);
   std::vector<dvec3> line{lifted(places.front(), ellipsoid, lift_m)};
   for (std::size_t k = 1; k < places.size(); ++k) {
@@ -107,7 +110,7 @@ std::vector<dvec3> line_along_geodesics(const std::vector<Geodetic>& places, con
 std::vector<EcefDir> normals_along_geodesics(const std::vector<Geodetic>& places, const Ellipsoid& ellipsoid,
                                              Angle step) {
   if (places.empty()) return {};
-  const GeodesicWays ways(ellipsoid);
+  GeodesicWays ways(ellipsoid);
   std::vector<EcefDir> line{Ellipsoid::normal(places.front().lat, places.front().lon)};
   const auto add = [&](const Geodetic& place) { line.push_back(Ellipsoid::normal(place.lat, place.lon)); };
   for (std::size_t k = 1; k < places.size(); ++k) {

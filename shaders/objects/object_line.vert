@@ -10,6 +10,8 @@ layout(location = 6) in vec3 after_high_ecef;
 layout(location = 7) in vec3 after_low_ecef;
 layout(location = 8) in float width;         // pixels; 0: no piece begins here
 layout(location = 9) in vec4 color;
+layout(location = 10) in vec2 length_along;  // metres: before the piece, and of the piece
+layout(location = 11) in vec2 dashes;        // 1/8 px
 
 // Pixels from the middle, times w, so that the value is linear on the screen.
 out float across_w;
@@ -18,15 +20,17 @@ flat out vec4 line_color;
 out vec3 air_through;
 out vec3 air_light;
 flat out float pull;
+out float along;
+flat out vec2 dash_px;
 
 const float kMostMitre = 2.0;                // factor of half the width
 
-// Point at which the way from p to q gets in front of the eye's plane, so that both ends have a place on the screen.
-vec3 before_eye(vec3 p, vec3 q) {
+// Part of the way from p to q before it gets in front of the eye's plane, so that both ends have a place on the screen.
+float part_behind(vec3 p, vec3 q) {
   float least = clip_scale.z;   // parts before the near plane are not drawn
-  if (-p.z >= least || q.z >= p.z) return p;
-  return mix(p, q, clamp((-least - p.z) / (q.z - p.z), 0.0, 1.0));
+  return -p.z >= least || q.z >= p.z ? 0.0 : clamp((-least - p.z) / (q.z - p.z), 0.0, 1.0);
 }
+vec3 before_eye(vec3 p, vec3 q) { return mix(p, q, part_behind(p, q)); }
 
 vec2 screen_px(vec3 p) { return p.xy * clip_scale.xy / -p.z * 0.5 * viewport_px; }
 
@@ -51,6 +55,8 @@ void main() {
   half_width_px = 0.5 * width;
   line_color = color;
   pull = 1.0 - depth_bias;
+  dash_px = dashes / 8.0;
+  along = 0.0;
   across_w = 0.0;
   gl_Position = kNowhere;
   float least = clip_scale.z;   // parts before the near plane are not drawn
@@ -63,6 +69,7 @@ void main() {
   vec3 before = before_eye(view_of(before_high_ecef, before_low_ecef), here);
   vec3 after = before_eye(view_of(after_high_ecef, after_low_ecef), next);
   bool at_b = gl_VertexID >= 2;
+  along = length_along.x + length_along.y * (at_b ? 1.0 - part_behind(next, here) : part_behind(here, next));
   vec2 a_px = screen_px(a), b_px = screen_px(b);
   vec2 way = unit_or(b_px - a_px, vec2(1.0, 0.0));
   vec2 other = at_b ? unit_or(screen_px(after) - b_px, way) : unit_or(a_px - screen_px(before), way);

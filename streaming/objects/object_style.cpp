@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/number.h"
 #include "streaming/preload/geojson_text.h"
@@ -37,6 +38,35 @@ class StyleReader {
     }
     complain_(fmt::format("\"{}\" must be a number from {} to {}", name, least, most));
     return std::nullopt;
+  }
+
+  /// Lengths of dashes and gaps, as in Leaflet and SVG.
+  LineDashes dashes() const {
+    const json* value = find("stroke-dasharray");
+    if (value == nullptr) return {};
+    constexpr double kMost_px = 1000.0;
+    std::array<double, 2> lengths{};
+    const bool is_pair = value->is_array() && value->size() == 2;
+    for (std::size_t k = 0; is_pair && k < 2; ++k) {
+      if ((*value)[k].is_number()) lengths[k] = (*value)[k].get<double>();
+    }
+    const auto good = [](double length) { return length > 0.0 && length <= kMost_px; };
+    if (good(lengths[0]) && good(lengths[1])) return {static_cast<float>(lengths[0]), static_cast<float>(lengths[1])};
+    complain_("\"stroke-dasharray\" must be two lengths, [dash, gap], each up to 1000 px");
+    return {};
+  }
+
+  /// Ends of a line that have arrows.
+  std::pair<bool, bool> arrows() const {
+    const json* value = find("stroke-arrows");
+    if (value == nullptr) return {};
+    constexpr std::array<std::pair<const char*, std::pair<bool, bool>>, 3> kEnds{
+        {{"start", {true, false}}, {"end", {false, true}}, {"both", {true, true}}}};
+    for (const auto& [name, ends] : kEnds) {
+      if (*value == name) return ends;
+    }
+    complain_("\"stroke-arrows\" must be start, end or both");
+    return {};
   }
 
   bool flag(const char* name) const {
@@ -144,6 +174,13 @@ void set_color(ObjectColor& color, std::optional<ObjectColor> said) {
   if (said) color = {said->red, said->green, said->blue, color.alpha};
 }
 
+void read_line(const StyleReader& reader, double most_px, LineObject& line) {
+  line.dashes = reader.dashes();
+  if (const auto width = reader.number("casing-width", 0.0, most_px)) line.casing_px = static_cast<float>(*width);
+  set_color(line.casing, reader.color("casing"));
+  std::tie(line.arrow_at_start, line.arrow_at_end) = reader.arrows();
+}
+
 /// Reads an icon. Other programs may use its properties differently without one.
 void read_icon(const StyleReader& reader, ObjectStyle& style) {
   constexpr double kMostSize_px = 1024.0;
@@ -201,6 +238,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
     set_opacity(*color, stroke_opacity);
   }
   if (stroke_width) style.line.width_px = style.polygon.stroke_width_px = static_cast<float>(*stroke_width);
+  read_line(reader, kMostWidth_px, style.line);
   set_color(style.polygon.fill, reader.color("fill"));
   set_opacity(style.polygon.fill, reader.number("fill-opacity", 0.0, 1.0));
   style.polygon.extrude_m = reader.number("extrude_m", 0.0, kMostLength_m).value_or(0.0);

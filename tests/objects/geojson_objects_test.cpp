@@ -252,13 +252,46 @@ TEST(GeojsonObjects, IdsOfTheFeaturesOfSeveralFilesCountOn) {
   EXPECT_EQ(second->next, ObjectId{5});
 }
 
+TEST(GeojsonObjects, LinesHaveDashesCasingsAndArrows) {
+  const std::string line = geometry("LineString", "[[0,0],[1,1]]");
+  const ObjectFile file = good(collection(
+      feature(line, R"({"stroke-dasharray":[12,4.5],"casing":"#010203","casing-width":1.5,"stroke-arrows":"end"})") +
+      "," + feature(line, "{}")));
+  EXPECT_THAT(file.complaints, ElementsAre());
+  const LineObject &styled = file.scene.lines[0], &plain = file.scene.lines[1];
+  EXPECT_EQ(styled.dashes, (LineDashes{12.0F, 4.5F}));
+  EXPECT_EQ(styled.casing, (ObjectColor{1, 2, 3}));
+  EXPECT_EQ(styled.casing_px, 1.5F);
+  EXPECT_TRUE(styled.arrow_at_end && !styled.arrow_at_start);
+  EXPECT_EQ(plain.dashes, LineDashes{});
+  EXPECT_FALSE(has_casing(plain) || plain.arrow_at_end || plain.arrow_at_start);
+}
+
 TEST(GeojsonObjects, EachSimplestyleValueThatIsWrongIsNamedAndItsDefaultDrawn) {
-  for (const char* wrong :
-       {R"("marker-color":"red")", R"("marker-color":"#12345")", R"x("marker-color":"rgb(1,2,3)")x",
-        R"("marker-color":7)", R"("marker-size":"huge")", R"("marker-symbol":12)", R"("marker-symbol":-1)",
-        R"("marker-symbol":[1])", R"("stroke":"")", R"("stroke":"#")", R"("stroke":"#-12345")",
-        R"("stroke-opacity":1.01)", R"("stroke-opacity":"1")", R"("stroke-width":-0.1)", R"("fill":"#ggg")",
-        R"("fill-opacity":-1)", R"("title":7)", R"("description":{})"}) {
+  for (const char* wrong : {R"("marker-color":"red")",
+                            R"("marker-color":"#12345")",
+                            R"x("marker-color":"rgb(1,2,3)")x",
+                            R"("marker-color":7)",
+                            R"("marker-size":"huge")",
+                            R"("marker-symbol":12)",
+                            R"("marker-symbol":-1)",
+                            R"("marker-symbol":[1])",
+                            R"("stroke":"")",
+                            R"("stroke":"#")",
+                            R"("stroke":"#-12345")",
+                            R"("stroke-opacity":1.01)",
+                            R"("stroke-opacity":"1")",
+                            R"("stroke-width":-0.1)",
+                            R"("fill":"#ggg")",
+                            R"("fill-opacity":-1)",
+                            R"("stroke-dasharray":"5 5")",
+                            R"("stroke-dasharray":[5])",
+                            R"("stroke-dasharray":[5,0])",
+                            R"("casing":"no")",
+                            R"("casing-width":-1)",
+                            R"("stroke-arrows":true)",
+                            R"("title":7)",
+                            R"("description":{})"}) {
     const std::string name = std::string(wrong).substr(0, std::string(wrong).find(':'));
     const ObjectFile file =
         good(collection(feature(kPoint, "{" + std::string(wrong) + "}") + "," +

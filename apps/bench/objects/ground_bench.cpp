@@ -70,6 +70,48 @@ ObjectScene long_track(HeightMode heights) {
   return {.lines = {std::move(line)}};
 }
 
+/// Tracks that go on by about 2 km a frame, each another way.
+class Tracks {
+ public:
+  Tracks(int count, const Geodetic& middle, HeightMode heights) : heights_(heights) {
+    const int across = static_cast<int>(std::lround(std::sqrt(double(count))));
+    for (int k = 0; k < count; ++k) {
+      const double east = double(k % across) / across - 0.5, north = double(k / across) / across - 0.5;
+      ends_.push_back({middle.lat + Angle::degrees(30.0 * north), middle.lon + Angle::degrees(30.0 * east),
+                       heights == HeightMode::absolute ? 1e4 : 0.0});
+    }
+  }
+  ObjectScene scene() {
+    constexpr int kFirstPlaces = 50;
+    ObjectScene scene;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      scene.lines.push_back({.of = {.id = ObjectId{k + 1}}, .heights = heights_});
+      for (int step = 0; step < kFirstPlaces; ++step) scene.lines.back().places.push_back(next(k));
+    }
+    return scene;
+  }
+  ObjectEdits grow() {
+    ObjectEdits edits;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      edits.growths.push_back({.id = ObjectId{k + 1}, .append = {next(k)}, .drop_first = 1});
+    }
+    return edits;
+  }
+
+ private:
+  Geodetic next(std::size_t k) {
+    constexpr double kStep_deg = 0.02;
+    const double way = 0.7 * double(k) + 0.02 * double(++steps_ / ends_.size());
+    ends_[k].lat = ends_[k].lat + Angle::degrees(kStep_deg * std::sin(way));
+    ends_[k].lon = ends_[k].lon + Angle::degrees(kStep_deg * std::cos(way));
+    return ends_[k];
+  }
+
+  HeightMode heights_;
+  std::vector<Geodetic> ends_;
+  std::size_t steps_ = 0;
+};
+
 /// A globe with one layer of objects, and the frames that are timed.
 class GroundScene {
  public:
@@ -162,6 +204,8 @@ class GroundBench {
     add(fmt::format("{} houses, 2 km", small), town, false, districts(small, flat, town, 0.2), "bare, 2 km", 2.0);
     add(fmt::format("{} houses, 2000 km", small), far, false, districts(small, flat, town, 0.2), "bare, 2000 km", 2.0);
     edits(areas);
+    tracks("in the air", home, false, HeightMode::absolute, "bare");
+    tracks("on the ground", home, true, HeightMode::clamp_to_ground, "bare relief");
     time_frames(subjects_, quick_ ? 2 : 15);
     for (std::size_t k = 0; k < subjects_.size(); ++k) {
       report_.rows.push_back(
@@ -171,6 +215,7 @@ class GroundBench {
       const double ratio = median_ratio(subjects_[k].cpu_ms, base->cpu_ms);
       find(fmt::format("{}, of {}", subjects_[k].name, bases_[k]), ratio, limits_[k], "");
     }
+    for (const auto& [name, ms] : calls_ms_) find(name + ", call", median(*ms), 2.0, "ms");
     if (GroundScene* scene = scene_of(areas)) recolor(*scene, many);
     if (GroundScene* scene = scene_of(areas)) {
       zoom(*scene, "the first time, with programs to compile", kNoFigure);
@@ -210,6 +255,21 @@ class GroundBench {
     time(areas + ", one recoloured", areas, 1.3, [scene, middle, k = 0]() mutable {
       const auto shade = static_cast<std::uint8_t>(++k * 50);
       scene->edit({.changes = {{.id = middle, .fill = ObjectColor{shade, 90, 90, 140}}}});
+      scene->draw();
+    });
+  }
+  /// Frames before which each track gets a place and loses one.
+  void tracks(const std::string& where, const Geodetic& eye, bool relief, HeightMode heights, const std::string& base) {
+    const int count = quick_ ? 200 : 2000;
+    const std::string name = fmt::format("{} tracks {}", count, where), grow = name + " grow";
+    if (!options_.wants(name)) return;
+    const auto all = std::make_shared<Tracks>(count, eye, heights);
+    add(name, eye, relief, all->scene(), base, 1.5);
+    const auto ms = std::make_shared<std::vector<double>>();
+    calls_ms_.emplace_back(grow, ms);
+    time(grow, base, 1.5, [scene = scenes_.back().get(), all, ms] {
+      ObjectEdits edits = all->grow();
+      ms->push_back(scene->edit(std::move(edits)));
       scene->draw();
     });
   }
@@ -259,6 +319,7 @@ class GroundBench {
   std::vector<Subject> subjects_;
   std::vector<std::string> bases_;
   std::vector<double> limits_;
+  std::vector<std::pair<std::string, std::shared_ptr<std::vector<double>>>> calls_ms_;  ///< times of edits, by row
 };
 
 }  // namespace

@@ -15,6 +15,9 @@ struct GroundObject {
   std::shared_ptr<const GroundShape> shape = {};  ///< null: none
   ObjectColor fill{0, 0, 0, 0}, line{0, 0, 0, 0};
   float width_px = 0.0F;
+  LineDashes dashes = {};
+  ObjectColor casing{0, 0, 0, 0};
+  float casing_px = 0.0F;  ///< beyond each side of the line
 };
 
 /// Some objects that follow each other, and where they lie on each face. thread: any

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <numbers>
+#include <utility>
 
 #include "objects/ground/ground_picture.h"
 
@@ -33,6 +35,23 @@ class GroundEdges {
     const glm::dvec2 middle(face(0.5 * (u.x + v.x)), face(0.5 * (u.y + v.y)));
     each(a, middle, use, depth + 1);
     each(middle, b, use, depth + 1);
+  }
+
+  /// The first and the last part of the way from a to b, in texels, that is near the picture. Empty: first >= last.
+  [[nodiscard]] std::pair<double, double> inside(const glm::dvec2& a, const glm::dvec2& b) const {
+    double first = 0.0, last = 1.0;
+    const double least = -around_, most = GroundPicture::kSide_px + around_;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double from = a[axis], way = b[axis] - from;
+      if (way == 0.0) {
+        if (from < least || from > most) return {1.0, 0.0};
+        continue;
+      }
+      const double one = (least - from) / way, other = (most - from) / way;
+      first = std::max(first, std::min(one, other));
+      last = std::min(last, std::max(one, other));
+    }
+    return {first, last};
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace terrella {
 class GroundLines {
  public:
   struct Line {
-    float away = 0.0F, over = 0.0F;  ///< distance to the line's middle; to its side, or 0
+    float away = 0.0F, over = 0.0F;  ///< distance to the line's middle; to its side, below 0 within it
     float distance = 0.0F;           ///< signed, along `direction`
     glm::vec2 direction{1.0F, 0.0F};
     std::uint32_t color = 0;
@@ -29,15 +30,23 @@ class GroundLines {
 
   /// Texels keep lines up to `reach_px` away. `stretch`: pixels are at most that many texels long.
   GroundLines(const FaceSquare& square, double reach_px, double stretch, Memory& memory)
-      : edges_(square, reach_px), reach_(reach_px), stretch_(static_cast<float>(stretch)), texels_(memory) {
+      : edges_(square, reach_px),
+        texel_rad_(0.25 * std::numbers::pi * square.side / GroundPicture::kInner_px),
+        reach_(reach_px),
+        stretch_(static_cast<float>(stretch)),
+        texels_(memory) {
     texels_.clear();
   }
 
   void add(const GroundPart& part, const GroundObject& object);
+  void add_casing(const GroundPart& part, const GroundObject& object);
   /// Sets `line` and `crossed` of a picture.
   void take(GroundPicture& picture) const;
 
  private:
+  void add_way(const GroundPart& part, ObjectColor color, float width_px, const LineDashes& dashes);
+  void add_run(const GroundPart& part, const GroundRun& run, const LineDashes& dashes);
+  void dashed(const glm::dvec2& a, const glm::dvec2& b, double from_rad, double to_rad, const LineDashes& dashes);
   void piece(glm::dvec2 a, glm::dvec2 b);
   void offer(const Line& line, Texel& texel) const;
   /// True if a pixel whose middle is in the texel may show the line.
@@ -48,6 +57,7 @@ class GroundLines {
   static constexpr float kBesideMiddle_px = 0.75F;
 
   GroundEdges edges_;
+  double texel_rad_;  ///< about the angle that a texel spans
   double reach_;
   float stretch_;
   float half_width_ = 0.0F;

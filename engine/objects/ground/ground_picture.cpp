@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
 
 #include "objects/ground/ground_fills.h"
 #include "objects/ground/ground_lines.h"
@@ -53,6 +57,19 @@ void each_part(std::span<const GroundChunks> layers, CubeFace face, const FaceBo
 }
 
 bool has_line(const GroundObject& object) { return object.line.alpha > 0 && object.width_px > 0.0F; }
+bool has_casing(const GroundObject& object) { return object.casing.alpha > 0 && object.casing_px > 0.0F; }
+float width_of(const GroundObject& object) {
+  return object.width_px + (has_casing(object) ? 2.0F * object.casing_px : 0.0F);
+}
+
+/// The angle between two points of a face.
+double angle_between(const glm::dvec2& a, const glm::dvec2& b) {
+  const auto direction = [](const glm::dvec2& p) {
+    return glm::normalize(
+        glm::dvec3(std::tan(std::numbers::pi / 4.0 * p.x), std::tan(std::numbers::pi / 4.0 * p.y), 1.0));
+  };
+  return 2.0 * std::asin(std::min(1.0, 0.5 * glm::distance(direction(a), direction(b))));
+}
 
 void add_mip(std::vector<std::uint32_t>& all, std::size_t from, int side) {
   for (int y = 0; y < side; y += 2) {
@@ -143,25 +160,63 @@ std::vector<std::uint32_t> GroundFills::means() const {
 }
 
 void GroundLines::add(const GroundPart& part, const GroundObject& object) {
-  half_width_ = 0.5F * object.width_px;
-  color_ = packed(object.line);
-  ++owner_;
+  add_way(part, object.line, object.width_px, object.dashes);
+}
+
+void GroundLines::add_casing(const GroundPart& part, const GroundObject& object) {
+  add_way(part, object.casing, width_of(object), {});
+}
+
+void GroundLines::add_way(const GroundPart& part, ObjectColor color, float width_px, const LineDashes& dashes) {
   if (texels_.empty()) texels_.resize(std::size_t{GroundPicture::kSide_px} * GroundPicture::kSide_px);
+  half_width_ = 0.5F * width_px;
+  color_ = packed(color);
+  ++owner_;
   for (const GroundRun& run : part.runs) {
     if (run.use == RunUse::fill) continue;
     const double margin_px = reach_ + edges_.bend_px(run.box);
     const glm::dvec2 low = edges_.texel({run.box.west, run.box.south}) - margin_px,
                      high = edges_.texel({run.box.east, run.box.north}) + margin_px;
     if (high.x < 0.0 || high.y < 0.0 || low.x > GroundPicture::kSide_px || low.y > GroundPicture::kSide_px) continue;
-    glm::dvec2 from = edges_.texel(part.points[run.first]);
-    const glm::dvec2 end = edges_.texel(part.points[run.first + run.pieces]);
-    for (std::uint32_t k = run.first; k < run.first + run.pieces; ++k) {
-      edges_.each(part.points[k], part.points[k + 1], [&](const glm::dvec2&, const glm::dvec2& b) {
-        if (std::hypot(b.x - from.x, b.y - from.y) < kFinest_px && b != end) return;
-        piece(from, b);
-        from = b;
-      });
-    }
+    add_run(part, run, dashes);
+  }
+}
+
+void GroundLines::add_run(const GroundPart& part, const GroundRun& run, const LineDashes& dashes) {
+  const bool has_gaps = dashes.off_px > 0.0F;
+  glm::dvec2 from = edges_.texel(part.points[run.first]);
+  const glm::dvec2 end = edges_.texel(part.points[run.first + run.pieces]);
+  double from_rad = run.along_rad, to_rad = from_rad;
+  for (std::uint32_t k = run.first; k < run.first + run.pieces; ++k) {
+    const double begin_rad = to_rad;
+    if (has_gaps) to_rad += angle_between(part.points[k], part.points[k + 1]);
+    const glm::dvec2 begin = edges_.texel(part.points[k]);
+    const double length = glm::distance(begin, edges_.texel(part.points[k + 1]));
+    edges_.each(part.points[k], part.points[k + 1], [&](const glm::dvec2&, const glm::dvec2& b) {
+      if (std::hypot(b.x - from.x, b.y - from.y) < kFinest_px && b != end) return;
+      const double b_rad = length > 0.0 ? glm::mix(begin_rad, to_rad, glm::distance(begin, b) / length) : to_rad;
+      has_gaps ? dashed(from, b, from_rad, b_rad, dashes) : piece(from, b);
+      from = b;
+      from_rad = b_rad;
+    });
+  }
+}
+
+// Ends of dashes are round, so a dash is shorter by its width. Their period in texels is the same in all pictures of a
+// level, and twice as long on the ground in those of the next coarser one, so dashes meet where pictures do. Pixels are
+// one to two texels long.
+void GroundLines::dashed(const glm::dvec2& a, const glm::dvec2& b, double from_rad, double to_rad,
+                         const LineDashes& dashes) {
+  const double px_rad = std::numbers::sqrt2 * texel_rad_;
+  const double on_rad = double(dashes.on_px) * px_rad, period_rad = on_rad + double(dashes.off_px) * px_rad;
+  const double cap_rad = std::min(double(half_width_) * px_rad, 0.5 * on_rad);
+  const auto [first, last] = edges_.inside(a, b);
+  if (!(first < last) || !(to_rad > from_rad)) return;
+  const double begin_rad = glm::mix(from_rad, to_rad, first), end_rad = glm::mix(from_rad, to_rad, last);
+  const auto at = [&](double rad) { return glm::mix(a, b, (rad - from_rad) / (to_rad - from_rad)); };
+  for (double dash_rad = std::floor(begin_rad / period_rad) * period_rad; dash_rad < end_rad; dash_rad += period_rad) {
+    const double on = std::max(dash_rad + cap_rad, begin_rad), off = std::min(dash_rad + on_rad - cap_rad, end_rad);
+    if (on <= off) piece(at(on), at(off));
   }
 }
 
@@ -199,9 +254,8 @@ void GroundLines::piece(glm::dvec2 a, glm::dvec2 b) {
       const glm::vec2 direction = across ? glm::vec2(-way.y, way.x) : to / away;
       const bool joint = goes_on && there <= 0.0;
       constexpr float kNearer = 0.9999F;  // than the round end of the last piece, which is as far away
-      offer({joint ? kNearer * away : away, std::max(0.0F, away - half_width_),
-             across ? to.x * direction.x + to.y * direction.y : away, direction, color_, half_width_, owner_,
-             !across && !joint},
+      offer({joint ? kNearer * away : away, away - half_width_, across ? to.x * direction.x + to.y * direction.y : away,
+             direction, color_, half_width_, owner_, !across && !joint},
             texels_[static_cast<std::size_t>(y * kSide + x)]);
     }
   }
@@ -274,10 +328,13 @@ GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunk
   GroundPicture picture;
   GroundFills fills(square, canvas.memory().fills);
   float widest_px = 0.0F;
+  bool casings = false;
   each_part(layers, square.face, box_of(square, GroundPicture::kMostReach_px), stop,
             [&](const GroundPart& part, const GroundObject& object) {
               if (object.fill.alpha > 0) fills.add(part, object.fill);
-              if (has_line(object)) widest_px = std::max(widest_px, object.width_px);
+              if (!has_line(object)) return;
+              widest_px = std::max(widest_px, width_of(object));
+              casings = casings || has_casing(object);
             });
   if (stop) return picture;
   if (fills.any()) picture.fill = fills.means();
@@ -287,10 +344,16 @@ GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunk
     picture.reach_px *= 2.0F;
   }
   GroundLines lines(square, double(picture.reach_px), stretch, canvas.memory().lines);
-  each_part(layers, square.face, box_of(square, double(picture.reach_px)), stop,
-            [&](const GroundPart& part, const GroundObject& object) {
-              if (has_line(object)) lines.add(part, object);
-            });
+  const FaceBox within = box_of(square, double(picture.reach_px));
+  // Casings lie below all lines, so that lines join where they cross.
+  if (casings) {
+    each_part(layers, square.face, within, stop, [&](const GroundPart& part, const GroundObject& object) {
+      if (has_line(object) && has_casing(object)) lines.add_casing(part, object);
+    });
+  }
+  each_part(layers, square.face, within, stop, [&](const GroundPart& part, const GroundObject& object) {
+    if (has_line(object)) lines.add(part, object);
+  });
   lines.take(picture);
   return picture;
 }

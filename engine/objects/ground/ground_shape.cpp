@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
@@ -41,14 +42,18 @@ dvec2 on_face(const dvec3& p) { return {unwarped(p.x / p.z), unwarped(p.y / p.z)
 /// Cuts pieces at the borders of faces. Both directions of a piece have the same points, to the bit.
 class ShapeMaker {
  public:
+  explicit ShapeMaker(double from_rad = 0.0) : to_rad_(from_rad) {}
+
   void piece(const dvec3& a, const dvec3& b, RunUse use) {
     if (a == b) return;
+    from_rad_ = to_rad_;
+    if (use == RunUse::stroke) to_rad_ += std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
     for (int f = 0; f < kCubeFaces; ++f) {
       const CubeFaceFrame& frame = face_frame(static_cast<CubeFace>(f));
       const dvec3 p = in_face(frame, a), q = in_face(frame, b);
       const bool alone = is_alone(p) && is_alone(q);
       if (alone) {
-        add(f, on_face(p), on_face(q), use);
+        add(f, on_face(p), on_face(q), use, from_rad_);
         return;
       }
       clip(f, p, q, use);
@@ -101,19 +106,21 @@ class ShapeMaker {
     }
     const auto at = [&](double t) { return on_face(t == 0.0 ? p : t == 1.0 ? q : p + t * (q - p)); };
     const dvec2 a = at(from), b = at(to);
-    turned ? add(f, b, a, use) : add(f, a, b, use);
+    const double begin_rad = glm::mix(from_rad_, to_rad_, turned ? 1.0 - to : from);
+    turned ? add(f, b, a, use, begin_rad) : add(f, a, b, use, begin_rad);
     if (use == RunUse::stroke) return;
     // A crossing of the western side changes the inside of that side, north of the crossing.
     if (west_from) add(f, {-kOverFace, a.y}, {-kOverFace, kOverFace}, RunUse::fill);
     if (west_to) add(f, {-kOverFace, b.y}, {-kOverFace, kOverFace}, RunUse::fill);
   }
 
-  void add(int f, const dvec2& a, const dvec2& b, RunUse use) {
+  void add(int f, const dvec2& a, const dvec2& b, RunUse use, double along_rad = 0.0) {
     GroundPart& part = parts_[static_cast<std::size_t>(f)];
     const bool goes_on = !part.runs.empty() && part.runs.back().use == use && part.points.back() == a;
     if (!goes_on) part.points.push_back(a);
     if (!goes_on || part.runs.back().pieces == kMostPieces) {
-      part.runs.push_back({.first = static_cast<std::uint32_t>(part.points.size() - 1), .use = use, .box = {}});
+      part.runs.push_back(
+          {.first = static_cast<std::uint32_t>(part.points.size() - 1), .use = use, .along_rad = along_rad, .box = {}});
       part.runs.back().box.add(a);
     }
     part.points.push_back(b);
@@ -122,6 +129,7 @@ class ShapeMaker {
   }
 
   std::array<GroundPart, kCubeFaces> parts_;
+  double from_rad_ = 0.0, to_rad_ = 0.0;  ///< lengths of strokes to the ends of the last piece
 };
 
 dvec3 normal_of(const Geodetic& place) { return Ellipsoid::normal(place.lat, place.lon).xyz; }
@@ -206,8 +214,8 @@ FillFault add_rings(const PolygonObject& area, ShapeMaker& maker) {
 
 }  // namespace
 
-GroundShape ground_shape(const LineObject& line, const Ellipsoid& ellipsoid) {
-  ShapeMaker maker;
+GroundShape ground_shape(const LineObject& line, const Ellipsoid& ellipsoid, double from_rad) {
+  ShapeMaker maker(from_rad);
   const std::vector<EcefDir> way = normals_along_geodesics(line.places, ellipsoid, kGeodesicStep);
   for (std::size_t k = 1; k < way.size(); ++k) maker.piece(way[k - 1].xyz, way[k].xyz, RunUse::stroke);
   return maker.take();

@@ -41,6 +41,7 @@ enum class RunUse : std::uint8_t { both, fill, stroke };
 struct GroundRun {
   std::uint32_t first = 0, pieces = 0;
   RunUse use = RunUse::both;
+  double along_rad = 0.0;  ///< length of the way before the run, as an angle
   FaceBox box;
 };
 
@@ -62,7 +63,8 @@ struct GroundShape {
 /// Parts reach this far over their face, in face coordinates.
 inline constexpr double kOverFace = 1.1666;
 
-[[nodiscard]] GroundShape ground_shape(const LineObject& line, const Ellipsoid& ellipsoid);
+/// `from_rad`: length of the way before the line.
+[[nodiscard]] GroundShape ground_shape(const LineObject& line, const Ellipsoid& ellipsoid, double from_rad = 0.0);
 /// `fill`: false leaves out what only the fill needs.
 [[nodiscard]] GroundShape ground_shape(const PolygonObject& area, bool fill);
 

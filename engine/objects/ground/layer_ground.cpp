@@ -19,14 +19,14 @@ void LayerObjects::put_on_ground(KeptOnGround& kept, GroundObject object) {
 }
 
 // A line that is cut anew mostly has as many vertices as before.
-void LayerObjects::put(KeptLine& line, std::span<const LineVertex> vertices) {
-  SlotBatch<LineVertex>& lines = batches_.lines;
-  if (line.slot.count > 0 && line.slot.count == vertices.size()) {
-    std::ranges::copy(vertices, lines.change(line.slot).begin());
+void LayerObjects::put(SlotBatch<LineVertex>& lines, Slot& slot, std::size_t bucket,
+                       std::span<const LineVertex> vertices) {
+  if (slot.count > 0 && slot.count == vertices.size()) {
+    std::ranges::copy(vertices, lines.change(slot).begin());
     return;
   }
-  lines.drop(line.slot);
-  line.slot = lines.add(bucket_of(line), vertices);
+  lines.drop(slot);
+  slot = lines.add(bucket, vertices);
 }
 
 glm::dvec3 LayerObjects::place_of(const Geodetic& place, HeightMode mode) const {

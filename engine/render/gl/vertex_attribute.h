@@ -21,6 +21,13 @@ inline void uint_attribute(GLuint array, GLuint index, GLuint binding, GLint siz
   glVertexArrayAttribBinding(array, index, binding);
 }
 
+/// Declares an input of `size` unsigned 16-bit integers, as floats of their values. thread: main
+inline void short_attribute(GLuint array, GLuint index, GLuint binding, GLint size, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, index);
+  glVertexArrayAttribFormat(array, index, size, GL_UNSIGNED_SHORT, GL_FALSE, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, index, binding);
+}
+
 /// Declares a colour input of four bytes, as floats from 0 to 1. thread: main
 inline void color_attribute(GLuint array, GLuint index, GLuint binding, std::size_t offset) {
   glEnableVertexArrayAttrib(array, index);

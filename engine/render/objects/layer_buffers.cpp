@@ -38,8 +38,8 @@ bool LayerBuffers::follow(LayerObjects& objects) {
   LayerBatches& batches = objects.batches();
   bool has_memory = spheres.follow(batches.spheres.groups.items(), batches.spheres.changed) &&
                     follow_all(markers, batches.markers) && follow_all(icons, batches.icons) &&
-                    icon_atlas.follow(batches.icon_images) && follow_all(lines, batches.lines) &&
-                    follow_all(fill_vertices, batches.fill_vertices) &&
+                    icon_atlas.follow(batches.icon_images) && follow_all(casings, batches.casings) &&
+                    follow_all(lines, batches.lines) && follow_all(fill_vertices, batches.fill_vertices) &&
                     follow_all(fill_indices, batches.fill_indices) && follow_all(solids, batches.solids);
   stands.resize(batches.models.size());
   for (std::size_t k = 0; k < stands.size(); ++k) {

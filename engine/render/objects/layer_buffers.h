@@ -41,7 +41,7 @@ class FollowingBuffer {
 struct LayerBuffers {
   using Buckets = std::array<FollowingBuffer, Batch<char>::kBuckets>;
   FollowingBuffer spheres;
-  Buckets markers, icons, lines, fill_vertices, fill_indices, solids;
+  Buckets markers, icons, casings, lines, fill_vertices, fill_indices, solids;
   std::vector<Buckets> stands;  ///< per model of the layer
   IconAtlas icon_atlas;
 

@@ -65,6 +65,8 @@ inline gl::VertexArray line_pieces_array() {
   }
   gl::float_attribute(array.name(), 8, 1, 1, offsetof(LineVertex, width_px));
   gl::color_attribute(array.name(), 9, 1, offsetof(LineVertex, color));
+  gl::float_attribute(array.name(), 10, 1, 2, offsetof(LineVertex, along_m));
+  gl::short_attribute(array.name(), 11, 1, 2, offsetof(LineVertex, on));
   return array;
 }
 

@@ -129,10 +129,17 @@ int ObjectPass::draw(ObjectPart part, const FrameBlock& frame, Viewport viewport
   // Areas lie on the ground: everything else is over them.
   int calls = draw_fills(opaque) + draw_fills(translucent);
   for (const ObjectDraw& draw : {opaque, translucent}) {
+    ObjectDraw casing = draw;
+    if (casing.state.depth) casing.state.depth->write = false;  // all lines are over it
     for (const DrawnLayer& layer : layers_) calls += solids_ ? solids_->draw(layer, draw) : 0;
     for (const DrawnLayer& layer : layers_) calls += meshes_ ? meshes_->draw(layer, draw) : 0;
     for (const DrawnLayer& layer : layers_) calls += spheres_->draw(layer, draw, frame, viewport, hiding_radius_m);
-    for (const DrawnLayer& layer : layers_) calls += draw_lines(layer, draw);
+    for (const DrawnLayer& layer : layers_) {
+      calls += draw_lines(layer.objects->batches().casings, layer.buffers->casings, casing);
+    }
+    for (const DrawnLayer& layer : layers_) {
+      calls += draw_lines(layer.objects->batches().lines, layer.buffers->lines, draw);
+    }
     for (const DrawnLayer& layer : layers_) calls += draw_markers(layer, draw);
     for (const DrawnLayer& layer : layers_) calls += icons_ ? icons_->draw(layer, draw, viewport, hiding_radius_m) : 0;
   }
@@ -170,14 +177,15 @@ int ObjectPass::draw_markers(const DrawnLayer& layer, const ObjectDraw& draw) co
   return calls;
 }
 
-int ObjectPass::draw_lines(const DrawnLayer& layer, const ObjectDraw& draw) const {
+int ObjectPass::draw_lines(const SlotBatch<LineVertex>& lines, const LayerBuffers::Buckets& buffers,
+                           const ObjectDraw& draw) const {
   int calls = 0;
   const auto [first, end] = buckets_of(draw.part, draw.opaque, draw.choice);
   for (std::size_t bucket = first; bucket < end; ++bucket) {
-    const std::size_t count = layer.objects->batches().lines.bucket(bucket).items.size();
+    const std::size_t count = lines.bucket(bucket).items.size();
     if (count < kVerticesOfAPiece) continue;
     if (calls++ == 0) apply(draw.state.with(line_.name()));
-    bind_line_pieces(line_array_, layer.buffers->lines[bucket].name());
+    bind_line_pieces(line_array_, buffers[bucket].name());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count - kVerticesOfAPiece + 1));
   }
   return calls;

@@ -62,7 +62,8 @@ class ObjectPass {
   void set_up_arrays();
   void plan_fills();
   [[nodiscard]] int draw_fills(const ObjectDraw& draw) const;
-  [[nodiscard]] int draw_lines(const DrawnLayer& layer, const ObjectDraw& draw) const;
+  [[nodiscard]] int draw_lines(const SlotBatch<LineVertex>& lines, const LayerBuffers::Buckets& buffers,
+                               const ObjectDraw& draw) const;
   [[nodiscard]] int draw_markers(const DrawnLayer& layer, const ObjectDraw& draw) const;
 
   /// Fills of one layer that are drawn together.
