@@ -37,10 +37,9 @@ std::string where_they_lie(const std::optional<GeoRect>& part) {
 }
 
 /// Refuses a picture without any tile, which would look like the planet. A view beside the data only causes a remark.
-Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing, const Url& tile_set,
-                       const GeoRect& bounds) {
-  if (stats.imagery_shown) return Done{};
-  const std::string where = where_they_lie(part_with_data(tile_set, bounds));
+Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& missing,
+                       const std::optional<GeoRect>& part) {
+  const std::string where = where_they_lie(part);
   if (stats.tiles_wanted == 0) {
     if (!where.empty()) print_message("{}\n", where);
     return Done{};
@@ -136,10 +135,13 @@ struct ScenePicture::Parts {
   OpenedScene scene{};
   bool checked_fills = false;
   std::unique_ptr<OffscreenTarget> target{};
+  std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
 
   Result<GlobeOptions> prepare(const Body& body);
   Status open();
   void check_fills();
+  /// The part of the planet with data, which takes a look at the tiles: once.
+  const std::optional<GeoRect>& with_data();
 };
 
 Result<GlobeOptions> ScenePicture::Parts::prepare(const Body& body) {
@@ -189,11 +191,15 @@ Result<LayerId> ScenePicture::add(const OverlayOption& overlay) {
 Camera ScenePicture::first_camera() const {
   const SceneOptions& said = parts_->command.scene;
   if (said.camera) return *said.camera;
-  const auto part = part_with_data(said.base.address, parts_->scene.base.grid.bounds);
-  return default_camera(part, parts_->scene.body.ellipsoid, said.size);
+  return default_camera(parts_->with_data(), parts_->scene.body.ellipsoid, said.size);
 }
 
 bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
+
+const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
+  if (!part) part = part_with_data(command.scene.base.address, scene.base.grid.bounds);
+  return *part;
+}
 
 /// Reports areas without a fill, once for all pictures.
 void ScenePicture::Parts::check_fills() {
@@ -219,8 +225,9 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   if (const Status& drawn = globe.status(); !drawn) return drawn.error();
   own.check_fills();
   const auto& missing = globe.missing_tiles();
-  const Status some = check_some_came(stats, missing, own.command.scene.base.address, own.scene.base.grid.bounds);
-  if (!some) return some.error();
+  if (!stats.imagery_shown) {
+    if (const Status some = check_some_came(stats, missing, own.with_data()); !some) return some.error();
+  }
   std::vector<std::string> thanks = globe.attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
   PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
