@@ -75,7 +75,7 @@ Result<TileGrid> grid_for(const GroundMap& map, const RasterInfo& raster, const 
                  ": none of its pixels has a place on the planet; its transform or its coordinate system is "
                  "wrong (gdalinfo shows both)"};
   }
-  const double pixel_deg = pixel_size_deg(*per_degree);
+  const double pixel_deg = pixel_size_deg(std::max(*per_degree, options.tile_px / kMaxRootSpanDeg));
   int level = 0;
   while (std::ldexp(pixel_deg * options.tile_px, level) < 180.0 * (1.0 - 1e-9)) ++level;
   if (level > kMaxTileLevel) {

@@ -504,6 +504,8 @@ HOSTILE = {
     "geocentric": [geo_keys((1024, 3), (1025, 1), (2048, 4326)), *HERE],
     "unknown model": [geo_keys((1024, 77), (1025, 1), (2048, 4326)), *HERE],
     "wgs 84 with the moon's radius": [geo_keys(*KEYS, (2057, DOUBLES, 1, 0)), (DOUBLES, 12, [1737400.0]), *HERE],
+    "wgs 84 with bessel's ellipsoid": [geo_keys(*KEYS, (2057, DOUBLES, 1, 0), (2059, DOUBLES, 1, 1)),
+                                       (DOUBLES, 12, [6377397.155, 299.1528128]), *HERE],
     "wgs 84 in radians": [geo_keys(*KEYS, (2054, 9101)), *HERE],
     "projected system and no place": [geo_keys((1024, 1), (1025, 1), (3072, 32633))],
     "metres in degrees": [DEGREES, *placed_at(500000, 4650000, 10, 10)],

@@ -157,6 +157,9 @@ TAGS = {
                                                        *placed_at(10, 50, 0.125, 0.125)]),
     "matrix in utm": (EARTH, RESAMPLED, [geo_keys((1024, 1), (1025, 1), (3072, 32633)),
                                          (MATRIX, 12, [4000.0, 1500, 0, 400000, 1500, -4000, 0, 5000000] + [0] * 7 + [1.0])]),
+    "a code whose flattening is rounded": (EARTH, AS_IT_IS, [
+        geo_keys((1024, 2), (1025, 1), (2048, 4326), (2057, DOUBLES, 1, 0), (2059, DOUBLES, 1, 1)),
+        (DOUBLES, 12, [6378137.0, 298.257224]), *placed_at(10, 50, 0.125, 0.125)]),
     "a moon of keys": (MOON, AS_IT_IS, [geo_keys((1024, 2), (1025, 1), (2048, 32767), (2054, 9102), (2057, DOUBLES, 1, 0),
                                                  (2058, DOUBLES, 1, 1)), (DOUBLES, 12, [1737400.0, 1737400.0]),
                                         *placed_at(10, 50, 0.125, 0.125)]),

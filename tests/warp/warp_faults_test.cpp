@@ -80,6 +80,26 @@ TEST(WarpGrid, AroundAPoleItHasAllLongitudes) {
               0.1);
 }
 
+TEST(WarpGrid, HasTheRastersPixelsThoughTheProjectionHasNoiseInTheMiddle) {
+  // PROJ's Van der Grinten is wrong by a kilometre near its centre, where a degree has 1.8 pixels.
+  const PaintedOptions planet{.crs = "+proj=vandg +R=6378137",
+                              .to_crs = {-2.0015e7, 61867.0, 0.0, 2.0015e7, 0.0, -61867.0},
+                              .width_px = 647,
+                              .height_px = 647};
+  const auto grid = warp_grid(PaintedRaster(planet, {}, {}).info(), on_sphere(), "it");
+  ASSERT_TRUE(grid);
+  EXPECT_NEAR(tile_span_deg(*grid, grid->max_level) / grid->tile_px, 61867.0 / kDeg_m, 0.02);
+}
+
+TEST(WarpGrid, FewPixelsOfAPlanetAreOneTile) {
+  for (const int tile_px : {64, 256, 512}) {
+    const auto grid =
+        warp_grid(PaintedRaster(degrees(-180.0, 90.0, 90.0, 4, 2), {}, {}).info(), on_sphere(tile_px), "it");
+    ASSERT_TRUE(grid) << grid.error().message;
+    EXPECT_EQ(grid->max_level, 0);
+  }
+}
+
 TEST(WarpGrid, TransformsOfNoUseAreRefused) {
   for (const double bad : {1e308, std::numeric_limits<double>::quiet_NaN(), 0.0}) {
     PaintedOptions options = degrees(0.0, 10.0, 1.0, 10, 10);

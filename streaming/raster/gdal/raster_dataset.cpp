@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "streaming/georeference/crs.h"
 #include "streaming/other_formats.h"
 
 namespace terrella {
@@ -72,6 +74,47 @@ std::optional<Georeference> read_place(GDALDatasetH dataset, GDALDatasetH resamp
   said.pixel_is_point = pixel != nullptr && std::string_view(pixel) == GDALMD_AOP_POINT;
   if (!said.transform && said.crs.empty()) return {};
   return said;
+}
+
+/// True if the names are the same, and the radii differ by less than a metre.
+bool are_of_one_name(const CrsFacts& one, const CrsFacts& other) {
+  return one.name == other.name && std::abs(one.a_m - other.a_m) < 1.0 && std::abs(one.b_m - other.b_m) < 1.0;
+}
+
+/// Finds out whether two systems place a raster alike, within a hundredth of a pixel.
+bool place_alike(const Georeference& one, const Georeference& other, GDALDatasetH dataset) {
+  const auto crs = Crs::open(one.crs), beside = Crs::open(other.crs);
+  if (!crs || !beside || !one.transform || !are_of_one_name(crs->facts(), beside->facts())) return false;
+  const Affine& to = *one.transform;
+  const double alike =
+      0.01 * std::min(std::hypot(to.x_per_column, to.y_per_column), std::hypot(to.x_per_row, to.y_per_row));
+  const double width = gdal().GDALGetRasterXSize(dataset), height = gdal().GDALGetRasterYSize(dataset);
+  const std::vector<CrsPoint> points{to.at(0, 0), to.at(width, 0), to.at(0, height), to.at(width, height),
+                                     to.at(0.5 * width, 0.5 * height)};
+  const auto places = beside->places(points);
+  const auto back = places ? crs->points(*places) : places;
+  return back && std::ranges::equal(*back, points, [&](const CrsPoint& a, const CrsPoint& b) {
+           return std::hypot(a.x - b.x, a.y - b.y) < alike;
+         });
+}
+
+/// What a warning says against the place. A system whose code has another definition in the registry is no fault if
+/// both place the raster alike.
+std::string doubt_of(const std::vector<std::string>& warnings, const DatasetSource& source, const Georeference& said) {
+  const auto is_of_code = [](const std::string& warning) {
+    return warning.find("not the same as the one from the EPSG registry") != std::string::npos;
+  };
+  const auto first = std::ranges::find_if_not(warnings, is_of_code);
+  if (first != warnings.end()) return *first;
+  if (warnings.empty()) return {};
+  for (const char* definition : {"GEOKEYS", "EPSG"}) {
+    const GdalSettings by_one(GdalSettings::Settings{{"GTIFF_SRS_SOURCE", definition}});
+    const auto again = open_dataset(source);
+    const auto other = again ? read_place((*again)->stored, (*again)->warped) : std::nullopt;
+    if (other && place_alike(said, *other, (*again)->read())) continue;
+    return "their numbers and the code of their coordinate system contradict each other";
+  }
+  return {};
 }
 
 /// Names of the rasters in a file that holds several; the first one is that of GDAL.
@@ -176,7 +219,7 @@ std::optional<Georeference> place_of(DatasetSource& source, DatasetHandle& handl
     said = *std::move(stated);
   }
   if (said.fault.empty()) said.fault = messages.error();
-  if (said.fault.empty() && !messages.warnings().empty()) said.fault = messages.warnings().front();
+  if (said.fault.empty()) said.fault = doubt_of(messages.warnings(), source, said);
   if (said.fault.empty() && tags.has_place && !said.transform) said.fault = "they give no scale, or no point";
   if (said.fault.empty() && tags.has_system && said.crs.empty()) said.fault = "they name no coordinate system";
   if (said.fault.empty() && !said.transform && said.crs.empty()) return {};

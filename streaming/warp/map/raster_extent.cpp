@@ -84,6 +84,18 @@ void set_longitudes(const Finder& raster, std::vector<double> lons, RasterExtent
   extent.east_deg = 180.0;
 }
 
+/// Half the distance over which pixels per degree are measured: a pixel. Some projections have noise over less: PROJ's
+/// Van der Grinten is wrong by a kilometre near its centre.
+double step_deg(const GroundMap& map, const CrsPoint& pixel, const RowPlace& place) {
+  constexpr double kLeast = 1e-4, kMost = 0.5;
+  double step = kLeast;
+  const std::array neighbours = {CrsPoint{pixel.x + 1.0, pixel.y}, CrsPoint{pixel.x, pixel.y + 1.0}};
+  for (const RowPlace& beside : map.places(neighbours)) {
+    if (is_placed(beside)) step = std::max(step, std::abs(beside.row_deg - place.row_deg));
+  }
+  return std::min(step, kMost);
+}
+
 }  // namespace
 
 std::optional<RasterExtent> raster_extent(const GroundMap& map, double width_px, double height_px) {
@@ -112,11 +124,12 @@ std::optional<double> pixels_per_degree(const GroundMap& map, double width_px, d
   const auto off = [&](const CrsPoint& p) { return std::hypot(p.x / width_px - 0.5, p.y / height_px - 0.5); };
   std::ranges::sort(pixels, {}, off);
   const std::vector<RowPlace> places = map.places(pixels);
-  for (const RowPlace& place : places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const RowPlace& place = places[i];
     if (!is_placed(place)) continue;
+    const double step = step_deg(map, pixels[i], place);
     // At a pole the meridian's direction counts alone: longitudes meet.
-    const double row = std::clamp(place.row_deg, -89.9, 89.9);
-    const double step = 1e-4;
+    const double row = std::clamp(place.row_deg, -89.9 + step, 89.9 - step);
     const std::array around = {RowPlace{place.lon_deg - step, row}, RowPlace{place.lon_deg + step, row},
                                RowPlace{place.lon_deg, row - step}, RowPlace{place.lon_deg, row + step}};
     std::array<CrsPoint, 4> at{};
