@@ -17,6 +17,7 @@
 #include "base/number.h"
 #include "geo/body.h"
 #include "streaming/cut.h"
+#include "streaming/cut/input/picture_place.h"
 #include "streaming/mosaic/mosaic_list.h"
 #include "streaming/raster/picture_kind.h"
 #include "streaming/remote/web_address.h"
@@ -137,6 +138,7 @@ int run(CutCommand& command) {
   const StopSignals signals;
   if (Status opened = open_address(command); !opened) return fail("cut", opened.error().message);
   open_raster_of(command);
+  if (command.cut.body.empty()) set_stated_body(command.cut);
   set_reading(command);
   Result<CutSummary> summary = Error{};
   {
@@ -163,7 +165,7 @@ void add_description_options(CLI::App& app, CutOptions& cut) {
            cut.body = text;
          },
          "Set the planet in the picture, by semi-major axis in metres and flattening, or by name: " + body_names() +
-             ". It is stored in the tile set")
+             ". Default: that of the picture's coordinate system, or the Earth. It is stored in the tile set")
       ->type_name("NAME|A,F");
   add_choice<Projection>(app, "--projection", cut.projection,
                          {{"equirectangular", Projection::equirectangular}, {"equal-area", Projection::equal_area}},

@@ -14,6 +14,7 @@
 #include "apps/process/stop_signals.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/growing/growing_cut.h"
+#include "streaming/cut/input/picture_place.h"
 #include "streaming/raster/picture_kind.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/warp/direct_tiles.h"
@@ -124,6 +125,7 @@ Result<DirectFile> try_in_place(const fs::path& picture, const SourceOptions& op
   }
   cut = cut_options(picture, options, raster && holds_numbers(*raster->raster));
   cut.picture = raster;
+  if (!options.body) set_stated_body(cut);
   return raster ? open_in_place(*raster, cut, options) : Result<DirectFile>(DirectFile{});
 }
 

@@ -73,7 +73,9 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SourceOptions& options, cons
     options.opened->remote.insert_or_assign(options.address.with_secrets(), opened->tiff);
   }
   for (const std::string& remark : opened->place.remarks) print_message("terrella: {}\n", remark);
-  auto tiles = tiles_of(*std::move(opened), direct_options(options));
+  DirectOptions direct = direct_options(options);
+  direct.body = opened->body;
+  auto tiles = tiles_of(*std::move(opened), direct);
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }

@@ -109,7 +109,7 @@ Result<OpenedRemoteTiff> open_remote_tiff(const RemoteTiffWish& wish) {
   DirectOptions direct = direct_options(wish.source);
   auto placed = place_picture(picture, direct.place);
   if (!placed) return placed.error();
-  if (wish.any_body) direct.body = placed->crs ? stated_body(*placed->crs) : std::string();
+  if (!wish.source.body && placed->crs) direct.body = stated_body(*placed->crs);
   const bool placeless = !placed->projected;
   auto place = place_raster(*std::move(placed), picture, direct);
   if (!place) return place.error();

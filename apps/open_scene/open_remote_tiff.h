@@ -22,7 +22,6 @@ struct RemoteTiffWish {
   std::filesystem::path cache{};                        ///< file of the cache; empty: none
   bool may_replace_cache = false;                       ///< the cache of an earlier version of the TIFF may be deleted
   std::function<void(const Error&)> on_cache_failed{};  ///< see CacheOptions::on_failed
-  bool any_body = false;                                ///< the TIFF's own body counts, not that of `source`
 };
 
 /// A TIFF on a server whose directories are read.

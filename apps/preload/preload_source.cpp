@@ -77,8 +77,7 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
                                 const PreloadTiff& asked) {
   const RemoteTiffWish wish{.source = {.address = source, .remote = remote, .cache_size_mb = asked.cache_size_mb},
                             .http = http,
-                            .cache = asked.cache,
-                            .any_body = true};
+                            .cache = asked.cache};
   auto opened = open_remote_tiff(wish);
   if (!opened) return opened.error();
   const auto body = opened->body.empty() ? Result<Body>(earth()) : parse_body(opened->body);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "streaming/georeference/crs_text.h"
+
 namespace terrella {
 namespace {
 
@@ -48,6 +50,18 @@ bool are_two_bodies(const Body& one, const Body& other) {
 }
 
 std::string stated_body(const CrsFacts& crs) { return is_other_body(crs, earth()) ? body_name(crs) : std::string(); }
+
+std::string stated_body(const PictureFile& picture, const PlaceWords& words) {
+  const auto named = stated_crs(words.crs);
+  std::string text = named ? *named : words.crs;
+  if (text.empty()) {
+    const auto said = read_georeference(picture);
+    if (said && *said) text = (*said)->crs;
+  }
+  if (text.empty()) return {};
+  const auto crs = Crs::open(text);
+  return crs ? stated_body(crs->facts()) : std::string();
+}
 
 Result<LatitudeKind> check_figure(PlacedPicture& placed, const Body& body, std::optional<LatitudeKind> asked) {
   if (!placed.crs) return asked.value_or(LatitudeKind::graphic);

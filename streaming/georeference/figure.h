@@ -29,5 +29,7 @@ namespace terrella {
 
 /// Body of a coordinate system: the name of a preset, or "A,F"; empty for the Earth, the default.
 [[nodiscard]] std::string stated_body(const CrsFacts& crs);
+/// The same of the system that the user's words or a picture name; empty if they name none that PROJ knows. thread: any
+[[nodiscard]] std::string stated_body(const PictureFile& picture, const PlaceWords& words);
 
 }  // namespace terrella

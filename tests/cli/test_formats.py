@@ -30,6 +30,9 @@ FORMATS = {
     "HDF4Image": ("hdf", (), UTM, "EPSG:4326"),
 }
 
+# The truth counts latitudes on the sphere.
+SPHERE_OF = {"EPSG:4326": (), MARS: ("--body", "3396190,0")}
+
 
 class FormatsTest(ProgramTest):
     def painted(self, place):
@@ -45,15 +48,19 @@ class FormatsTest(ProgramTest):
         gdal("gdal_translate", "-q", tiles, flat)
         self.assertLess(max(placement.spot_errors(truth, flat, degrees, SIZE)), RESAMPLED_PX, picture)
 
+    def assert_body(self, picture, body):
+        self.assert_done("cut", picture, "-o", "own.gpkg", "--force")
+        self.assertEqual(json.loads(self.assert_done("info", "own.gpkg", "--json").stdout)["body"], body)
+
     def test_pictures_are_where_they_say(self):
         for name, (ending, options, place, degrees) in FORMATS.items():
             with self.subTest(name):
                 truth = self.painted(place)
                 picture = self.folder / f"spots.{ending}"
                 gdal("gdal_translate", "-q", "-of", name, *options, truth, picture)
-                body = () if degrees != MARS else ("--body", "3396190,0")
-                self.assert_in_place(picture, truth, degrees, *body)
-                self.assert_done("render", picture, "-o", "a.png", "--size", "64x64", *body)
+                self.assert_in_place(picture, truth, degrees, *SPHERE_OF[degrees])
+                self.assert_done("render", picture, "-o", "a.png", "--size", "64x64")
+                self.assert_body(picture, "mars" if degrees == MARS else "")
                 self.assertIn("pixels", self.assert_done("info", picture).stdout)
 
     def test_formats_without_a_place_are_a_planet(self):
@@ -72,7 +79,8 @@ class FormatsTest(ProgramTest):
         label.write_text(PDS3_LABEL.format(width=width, height=height, line=299.5, sample=-10.5))
         told = json.loads(gdal("gdalinfo", "-json", label))["geoTransform"]
         self.assertEqual(told[:1] + told[3:4], [100000.0, 3000000.0], "the label says another place than the truth")
-        self.assert_in_place(label, truth, MARS, "--body", "3396190,0")
+        self.assert_in_place(label, truth, MARS, *SPHERE_OF[MARS])
+        self.assert_body(label, "mars")
 
     def test_control_points_place_a_picture(self):
         truth = self.painted(UTM)

@@ -247,19 +247,30 @@ class Refused(GeoreferenceTest):
 
     def test_another_body(self):
         self.picture("in.tif", "-a_srs", MOON_DEGREES, *PLANET)
-        self.assert_refused("in.tif", "1737400", "earth has 6378137", "--body moon")
+        self.assert_refused("in.tif", "1737400", "earth has 6378137", "--body moon", options=["--body", "earth"])
         self.assert_refused("in.tif", "mars has 3396190", "--body moon", options=["--body", "mars"])
         self.assert_done("cut", "in.tif", "-o", "out.gpkg", "--body", "moon")
         self.assert_done("render", "in.tif", "-o", "out.png", "--size", "64x64", "--body", "moon")
 
+    def test_the_body_that_a_picture_states_is_drawn(self):
+        for name, kind in (("in.tif", "GTiff"), ("in.png", "PNG")):
+            self.picture(name, "-of", kind, "-a_srs", MOON_DEGREES, *PLANET)
+            self.assert_done("cut", name, "-o", "out.gpkg", "--force")
+            self.assertEqual(json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)["body"], "moon")
+            self.assert_done("render", name, "-o", "own.png", "--size", "64x64")
+            self.assert_done("render", name, "-o", "said.png", "--size", "64x64", "--body", "moon")
+            self.assertEqual((self.folder / "own.png").read_bytes(), (self.folder / "said.png").read_bytes())
+            # An overlay is of the body of TILESET, here the Earth.
+            self.assert_fails(FAILED, "render", "--overlay", name, "-o", "no.png", says=["1737400", "--body moon"])
+
     def test_another_body_in_a_projection(self):
         self.picture("in.tif", "-a_srs", "+proj=sinu +R=1560800 +units=m +no_defs", "-a_ullr", 0, 320000, 640000, 0)
-        self.assert_refused("in.tif", "1560800", "earth has 6378137", "--body europa")
+        self.assert_refused("in.tif", "1560800", "earth has 6378137", "--body europa", options=["--body", "earth"])
         self.assert_refused("in.tif", "1560800", "moon has 1737400", options=["--body", "moon"])
 
     def test_a_body_without_a_name(self):
         self.picture("in.tif", "-a_srs", "+proj=longlat +a=289000 +b=229000 +no_defs", *PLANET)
-        self.assert_refused("in.tif", "--body 289000,0.2076")
+        self.assert_refused("in.tif", "--body 289000,0.2076", options=["--body", "earth"])
         self.assert_refused("in.tif", "229000", options=["--body", "289000,0"])
         self.assert_drawn_as_gdal_says("in.tif", "+proj=longlat +a=289000 +b=229000 +no_defs")
 

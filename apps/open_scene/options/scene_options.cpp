@@ -35,7 +35,8 @@ void add_planet_options(CLI::App& command, SceneOptions& options) {
       .add_option_function<std::string>(
           "--body",
           [&options](const std::string& text) { options.base.body = parsed_or_throw("--body", parse_body(text)); },
-          "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names())
+          "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names() +
+              ". Default: what TILESET states, or the Earth")
       ->type_name("NAME|A,F");
   add_choice<Projection>(
       command, "--projection", options.base.projection,

@@ -149,4 +149,9 @@ Result<PictureFile> picture_of(const CutOptions& options) {
   return options.picture ? Result<PictureFile>(*options.picture) : measure_picture(options.images.front());
 }
 
+void set_stated_body(CutOptions& options) {
+  const auto picture = picture_of(options);
+  if (picture) options.body = stated_body(*picture, words_of(options));
+}
+
 }  // namespace terrella

@@ -58,4 +58,7 @@ struct PicturePlace {
 /// The first picture of a cut: as it was opened before, else measured. thread: any
 [[nodiscard]] Result<PictureFile> picture_of(const CutOptions& options);
 
+/// Sets the body to the one that the first picture states, for a cut without one by its user. thread: any
+void set_stated_body(CutOptions& options);
+
 }  // namespace terrella
