@@ -89,8 +89,9 @@ class DirectTest(ProgramTest):
         self.assertNotEqual(west[2], east[2])
         gdal("gdal_translate", "-q", "-outsize", 512, 256, *TILED, "-a_srs", "+proj=longlat +R=1737400 +no_defs", "-a_ullr",
              -180, 90, 180, -90, BLUE_MARBLE, self.folder / "moon.tif")
-        self.assert_fails(1, "render", "moon.tif", "-o", "m.png", says=["moon.tif", "1737400", "--body moon"])
-        self.shot("moon.tif", "10,15,5000000", "m.png", "--body", "moon")
+        self.assert_fails(1, "render", "moon.tif", "-o", "m.png", "--body", "earth", says=["moon.tif", "1737400", "--body moon"])
+        own, said = (self.shot("moon.tif", "10,15,5000000", "m.png", *body) for body in ((), ("--body", "moon")))
+        self.assertEqual(own[2], said[2])
 
     def test_damage_is_named(self):
         self.cog()

@@ -98,8 +98,8 @@ bool place_alike(const Georeference& one, const Georeference& other, GDALDataset
          });
 }
 
-/// What a warning says against the place. A system whose code has another definition in the registry is no fault if
-/// both place the raster alike.
+/// Returns what warnings say against the place. A system whose code has another definition in the registry is no fault
+/// if both place the raster alike.
 std::string doubt_of(const std::vector<std::string>& warnings, const DatasetSource& source, const Georeference& said) {
   const auto is_of_code = [](const std::string& warning) {
     return warning.find("not the same as the one from the EPSG registry") != std::string::npos;
