@@ -96,7 +96,14 @@ class Open(WindowTest):
     def test_memory_that_the_driver_does_not_give_is_said(self):
         for options, said in ((), False), (("--memory", "65536"), True):
             viewer = self.start(*options, size=SIZE)
-            self.assertEqual(any("message" in layout.panels for layout in viewer.layouts), said)
+
+            def has_message():
+                return any("message" in layout.panels for layout in viewer.layouts)
+
+            if said:
+                wait_until("the message", has_message)
+            else:
+                self.assertFalse(has_message())
 
     def test_what_is_not_there_is_said_in_the_window(self):
         viewer = self.start("--camera", "20,10,12000000", size=SIZE)
