@@ -76,7 +76,8 @@ class Tracks {
   Tracks(int count, const Geodetic& middle, HeightMode heights) : heights_(heights) {
     const int across = static_cast<int>(std::lround(std::sqrt(double(count))));
     for (int k = 0; k < count; ++k) {
-      const double east = double(k % across) / across - 0.5, north = double(k / across) / across - 0.5;
+      const int column = k % across, row = k / across;
+      const double east = double(column) / across - 0.5, north = double(row) / across - 0.5;
       ends_.push_back({middle.lat + Angle::degrees(30.0 * north), middle.lon + Angle::degrees(30.0 * east),
                        heights == HeightMode::absolute ? 1e4 : 0.0});
     }
@@ -101,7 +102,8 @@ class Tracks {
  private:
   Geodetic next(std::size_t k) {
     constexpr double kStep_deg = 0.02;
-    const double way = 0.7 * double(k) + 0.02 * double(++steps_ / ends_.size());
+    const std::size_t frame = ++steps_ / ends_.size();
+    const double way = 0.7 * double(k) + 0.02 * double(frame);
     ends_[k].lat = ends_[k].lat + Angle::degrees(kStep_deg * std::sin(way));
     ends_[k].lon = ends_[k].lon + Angle::degrees(kStep_deg * std::cos(way));
     return ends_[k];
