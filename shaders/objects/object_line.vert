@@ -61,14 +61,14 @@ void main() {
   gl_Position = kNowhere;
   float least = clip_scale.z;   // parts before the near plane are not drawn
   if (width <= 0.0 || color.a == 0.0 || (-here.z < least && -next.z < least)) return;
+  bool at_b = gl_VertexID >= 2;
   if (in_air()) {
-    gl_VertexID >= 2 ? air_before(from_eye(next_high_ecef, next_low_ecef), air_through, air_light)
-                     : air_before(from_eye(here_high_ecef, here_low_ecef), air_through, air_light);
+    vec3 end = at_b ? from_eye(next_high_ecef, next_low_ecef) : from_eye(here_high_ecef, here_low_ecef);
+    air_before(end, air_through, air_light);
   }
   vec3 a = before_eye(here, next), b = before_eye(next, here);
   vec3 before = before_eye(view_of(before_high_ecef, before_low_ecef), here);
   vec3 after = before_eye(view_of(after_high_ecef, after_low_ecef), next);
-  bool at_b = gl_VertexID >= 2;
   along = length_along.x + length_along.y * (at_b ? 1.0 - part_behind(next, here) : part_behind(here, next));
   vec2 a_px = screen_px(a), b_px = screen_px(b);
   vec2 way = unit_or(b_px - a_px, vec2(1.0, 0.0));
