@@ -14,7 +14,10 @@ constexpr std::size_t kManyChanges = 4096;
 }  // namespace
 
 void GroundPictures::set_budget(std::size_t bytes) {
-  if (textures_.set_budget(bytes)) return;
+  if (!textures_.set_budget(bytes)) forget_all();
+}
+
+void GroundPictures::forget_all() {
   for (auto& [id, entry] : entries_) {
     entry.slots = {};
     entry.made = false;
@@ -94,6 +97,7 @@ bool GroundPictures::evict() {
 }
 
 bool GroundPictures::put(const GroundPicture& picture, Entry& entry) {
+  if (!textures_.admit(picture)) forget_all();
   GroundSlots slots = std::exchange(entry.slots, {});  // not to be evicted
   bool there = textures_.put(picture, slots);
   while (!there && evict()) there = textures_.put(picture, slots);
@@ -108,7 +112,6 @@ std::size_t GroundPictures::take_painted() {
     if (!painted.is_painted) continue;  // the next frame wants it again
     Entry& entry = entries_[painted.id];
     entry.made = put(painted.picture, entry);
-    entry.crossed = painted.picture.crossed;
     entry.reach_px = painted.picture.reach_px;
     entry.stretch = painted.stretch;
     entry.revision = painted.revision;

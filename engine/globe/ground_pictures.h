@@ -70,7 +70,7 @@ class GroundPictures {
  private:
   struct Entry {
     GroundSlots slots;
-    bool made = false, crossed = false;
+    bool made = false;
     float reach_px = 0.0F;
     double stretch = 0.0;
     std::uint64_t revision = 0, changed = 0;  ///< content; last change under it
@@ -96,6 +96,7 @@ class GroundPictures {
   [[nodiscard]] std::size_t room(double pixels) const;
   /// Plans of all views in which a view that is drawn has one.
   [[nodiscard]] static std::size_t turns(std::size_t views) { return views < 2 ? 1 : 4 * views; }
+  void forget_all();  ///< all pictures are gone from the textures
   bool put(const GroundPicture& picture, Entry& entry);
   bool evict();
 

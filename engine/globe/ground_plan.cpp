@@ -25,6 +25,7 @@ constexpr double kSlanted = 0.55;
 constexpr double kMostTexel_px = 1.4, kMostLargerTexel_px = 0.7, kMostLargerTexelOnRelief_px = 0.1;
 constexpr double kCoarserStep = 1.5;
 constexpr int kMostCoarser = 16;
+constexpr glm::uvec3 kEmptyCell{0xFFFFFFFFU, 0U, 0xFFFFFFFFU};
 
 double stretch_of(double wish) {
   double least = kLeastStretch;
@@ -67,10 +68,12 @@ class GroundPictures::Planner {
     if (!leaves_.empty()) {
       window = {out.frame.cells.size(), deepest_, 0, 0};
       const auto side = std::size_t{1} << static_cast<unsigned>(deepest_);
-      out.frame.cells.resize(out.frame.cells.size() + side * side, {0xFFFFFFFFU, 0U});
+      out.frame.cells.resize(out.frame.cells.size() + side * side, kEmptyCell);
       for (const Leaf& leaf : leaves_) put(leaf, window, side, out.frame.cells.data() + window.x);
       if (window.z != 0 && slanted_) window.z |= 4U;
-      if (std::ranges::any_of(leaves_, [](const Leaf& leaf) { return leaf.entry->crossed; })) window.z = kCrossedLines;
+      if (std::ranges::any_of(leaves_, [](const Leaf& leaf) { return leaf.entry->slots.has_more_lines(); })) {
+        window.z = kMoreLines;
+      }
     }
     out.frame.windows.push_back(window);
   }
@@ -207,20 +210,24 @@ class GroundPictures::Planner {
     return false;
   }
 
-  void put(const Leaf& leaf, glm::uvec4& window, std::size_t side, glm::uvec2* cells) const {
+  void put(const Leaf& leaf, glm::uvec4& window, std::size_t side, glm::uvec3* cells) const {
     const GroundSlots& slots = leaf.entry->slots;
     if (!slots.any()) return;
-    window.z |= (slots.fill >= 0 ? 1U : 0U) | (slots.line >= 0 ? 2U : 0U);
+    window.z |= (slots.fill >= 0 ? 1U : 0U) | (slots.lines[GroundPicture::top] >= 0 ? 2U : 0U);
     const auto more = static_cast<unsigned>(deepest_ - leaf.depth), up = static_cast<unsigned>(leaf.up);
     const std::uint32_t across = 1U << more, below = (1U << up) - 1U;
     const std::uint32_t x0 = (leaf.id.x << more) - (patch_->node->id.x << static_cast<unsigned>(deepest_)),
                         y0 = (leaf.id.y << more) - (patch_->node->id.y << static_cast<unsigned>(deepest_));
-    const auto word = static_cast<std::uint32_t>(slots.fill & 0xFFFF) | static_cast<std::uint32_t>(slots.line) << 16U;
+    const auto both = [](int low, int high) {
+      return static_cast<std::uint32_t>(low & 0xFFFF) | static_cast<std::uint32_t>(high) << 16U;
+    };
+    const std::uint32_t word = both(slots.fill, slots.lines[GroundPicture::top]),
+                        more_lines = both(slots.lines[GroundPicture::below], slots.lines[GroundPicture::casing]);
     const auto reach = static_cast<std::uint32_t>(std::lround(std::log2(leaf.entry->reach_px))) - 2U;
     for (std::uint32_t y = 0; y < across; ++y) {
       for (std::uint32_t x = 0; x < across; ++x) {
         const std::uint32_t column = ((leaf.id.x & below) << more) + x, row = ((leaf.id.y & below) << more) + y;
-        cells[(y0 + y) * side + x0 + x] = {word, (more + up) | column << 4U | row << 16U | reach << 28U};
+        cells[(y0 + y) * side + x0 + x] = {word, (more + up) | column << 4U | row << 16U | reach << 28U, more_lines};
       }
     }
   }

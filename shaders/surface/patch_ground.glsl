@@ -65,11 +65,18 @@ vec4 line_on(OnPicture p, uvec2 line, float reach) {
   return vec4(vec3(bytes.xyz) / 255.0 * alpha, alpha);
 }
 
+// The lines of a sheet at a pixel, over a colour.
+vec4 under_line(vec4 sum, OnPicture p, uint slot, float reach) {
+  uvec2 line = texelFetch(ground_line, ivec3(ivec2(p.at), slot == 65535u ? 0u : slot), 0).xy;
+  vec4 seen = line_on(p, line * (slot == 65535u ? 0u : 1u), reach);
+  return seen + (1.0 - seen.a) * sum;
+}
+
 // Objects on the ground of the pixel, premultiplied.
 vec4 on_ground() {
   float side = float(1u << ground_window.y);
   vec2 p = clamp(ground_point, 0.0, 1.0) * side, cell = min(floor(p), side - 1.0);
-  uvec2 words = texelFetch(ground_cells, int(ground_window.x) + int(cell.y * side + cell.x)).xy;
+  uvec3 words = texelFetch(ground_cells, int(ground_window.x) + int(cell.y * side + cell.x)).xyz;
   float part = uintBitsToFloat((127u - (words.y & 15u)) << 23) * (kPictureSide - 2.0 * kPictureRim);  // texels of a cell
   vec2 first = vec2((words.y >> 4) & 4095u, (words.y >> 16) & 4095u);
   OnPicture there = OnPicture((p - cell + first) * part + kPictureRim, dFdx(ground_point) * (side * part),
@@ -80,16 +87,12 @@ vec4 on_ground() {
   sum = areas_on(there, float(fill_slot)) * (fill_slot == 65535u ? 0.0 : 1.0);
 #endif
 #if defined(LINES)
-  uint line_slot = words.x >> 16;
   float reach = uintBitsToFloat((129u + (words.y >> 28)) << 23);
-  uvec4 lines = texelFetch(ground_line, ivec3(ivec2(there.at), line_slot == 65535u ? 0u : line_slot), 0);
-  lines *= line_slot == 65535u ? 0u : 1u;
-#if defined(CROSSED)
-  vec4 below = line_on(there, lines.zw, reach);
-  sum = below + (1.0 - below.a) * sum;
+#if defined(MORE_LINES)
+  sum = under_line(sum, there, words.z >> 16, reach);
+  sum = under_line(sum, there, words.z & 65535u, reach);
 #endif
-  vec4 line = line_on(there, lines.xy, reach);
-  sum = line + (1.0 - line.a) * sum;
+  sum = under_line(sum, there, words.x >> 16, reach);
 #endif
   return sum;
 }

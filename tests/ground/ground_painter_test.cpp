@@ -34,7 +34,7 @@ std::vector<PaintedGround> take(GroundPainter& painter, std::size_t count) {
 TEST(GroundPainter, AJobWithoutMemoryIsToldAndItsThreadPaintsTheNext) {
   GroundPainter painter(std::make_shared<ArrivalBell>(), [](const GroundJob& job, const auto&, GroundCanvas&) {
     if (job.id.x % 2 == 0) throw std::bad_alloc();
-    return GroundPicture{.fill = {job.id.x}, .line = {}};
+    return GroundPicture{.fill = {job.id.x}, .lines = {}};
   });
   painter.ask(jobs(40));
   const auto all = take(painter, 40);

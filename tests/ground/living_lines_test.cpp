@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -349,6 +351,55 @@ TEST_F(LivingLinesTest, CasingsLieBelowAllLines) {
     EXPECT_GE(along_x, 39);
     EXPECT_GE(along_y, 39);
     for (const LayerId layer : globe_->objects()) EXPECT_TRUE(globe_->remove(layer));
+  }
+}
+
+// A cased line keeps its casing beside a line that it crosses. Distances are those to straight lines of the
+// picture, straight down from where a degree has the same length along both.
+TEST_F(LivingLinesTest, CasedLinesThatCrossAtASlantKeepTheirCasings) {
+  constexpr double kHalfInk_px = 2.0, kHalfCasing_px = 6.0, kOff_px = 1.0;  // pixels nearer to an edge are mixed
+  constexpr int kPart_px = 40;                                              // around the crossing
+  for (const double slope : {0.15, 0.4, 1.0}) {
+    SCOPED_TRACE(testing::Message() << "slope " << slope);
+    globe_->set_camera(camera_at(0.0, kLon, kHeight_m));
+    std::vector<LineObject> both;
+    for (const double sign : {-1.0, 1.0}) {
+      const double dlon = 0.4, dlat = sign * slope * dlon;
+      const auto at = [&](double part) {
+        return Geodetic{Angle::degrees(part * dlat), Angle::degrees(kLon + part * dlon), 0.0};
+      };
+      both.push_back(line_of({"", 0.0, HeightMode::absolute, {}, static_cast<float>(kHalfCasing_px - kHalfInk_px)},
+                             {at(-1.0), at(1.0)}));
+    }
+    const std::array<Geodetic, 2> ends{both[0].places[1], both[1].places[1]};
+    const LayerId layer = add(std::move(both));
+    const Picture shot = show();
+    const glm::dvec2 middle = *globe_->project({{}, Angle::degrees(kLon), 0.0}, kShot);
+    std::array<glm::dvec2, 2> across;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const glm::dvec2 way = glm::normalize(*globe_->project(ends[k], kShot) - middle);
+      across[k] = {-way.y, way.x};
+    }
+    EXPECT_TRUE(globe_->remove(layer));
+    int wrong = 0, inks = 0, casings = 0;
+    for (int y = kShot.height_px / 2 - kPart_px; y < kShot.height_px / 2 + kPart_px; ++y) {
+      for (int x = kShot.width_px / 2 - kPart_px; x < kShot.width_px / 2 + kPart_px; ++x) {
+        const glm::dvec2 from = glm::dvec2(x + 0.5, y + 0.5) - middle;
+        const double a = std::abs(glm::dot(across[0], from)), b = std::abs(glm::dot(across[1], from));
+        const double nearest = std::min(a, b);
+        const auto beside = [&](double edge) { return std::min(std::abs(a - edge), std::abs(b - edge)) < kOff_px; };
+        if (beside(kHalfInk_px) || beside(kHalfCasing_px)) continue;
+        const Color expected = nearest < kHalfInk_px      ? kPlainInk
+                               : nearest < kHalfCasing_px ? Color{kBlue.red, kBlue.green, kBlue.blue}
+                                                          : kMeadow;
+        inks += nearest < kHalfInk_px ? 1 : 0;
+        casings += nearest >= kHalfInk_px && nearest < kHalfCasing_px ? 1 : 0;
+        wrong += shot.at(x, y) == expected ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(inks, 100);
+    EXPECT_GT(casings, 50);
   }
 }
 

@@ -40,8 +40,10 @@ class GroundLines {
 
   void add(const GroundPart& part, const GroundObject& object);
   void add_casing(const GroundPart& part, const GroundObject& object);
-  /// Sets `line` and `crossed` of a picture.
-  void take(GroundPicture& picture) const;
+  /// Returns the lines on top. Empty: there are none.
+  [[nodiscard]] LineSheet top() const;
+  /// Returns the lines that show below those on top. Empty: there are none.
+  [[nodiscard]] LineSheet below() const;
 
  private:
   void add_way(const GroundPart& part, ObjectColor color, float width_px, const LineDashes& dashes);
@@ -54,6 +56,9 @@ class GroundLines {
     return line.owner != 0 && line.away <= (line.half_width_px + kBesideMiddle_px) * stretch_;
   }
   [[nodiscard]] std::uint32_t code(const Line& line) const;
+  /// Returns the lines that pick(texel) points to; null: none there.
+  template <class Pick>
+  [[nodiscard]] LineSheet sheet(Pick pick) const;
   static constexpr float kBesideMiddle_px = 0.75F;
 
   GroundEdges edges_;

@@ -284,24 +284,29 @@ std::uint32_t GroundLines::code(const Line& line) const {
          whole(32.0 + sign * 31.0 * double(line.direction.x)) << 6U | whole(sign * 63.0 * double(line.direction.y));
 }
 
-void GroundLines::take(GroundPicture& picture) const {
-  constexpr float kLeastTexelsAPixel = 0.7F;
-  bool any = false;
-  picture.line.assign(texels_.size(), glm::uvec4(0));
+template <class Pick>
+LineSheet GroundLines::sheet(Pick pick) const {
+  LineSheet sheet;
   for (std::size_t k = 0; k < texels_.size(); ++k) {
-    const auto& [top, below] = texels_[k];
-    if (top.owner == 0) continue;
-    any = true;
-    glm::uvec4& to = picture.line[k];
-    to.x = top.color;
-    to.y = code(top);
-    const bool hides = top.color >> 24U == 255U && top.away + 1.0F < kLeastTexelsAPixel * top.half_width_px;
-    if (below.owner == 0 || hides) continue;
-    picture.crossed = true;
-    to.z = below.color;
-    to.w = code(below);
+    const Line* line = pick(texels_[k]);
+    if (line == nullptr) continue;
+    if (sheet.empty()) sheet.resize(texels_.size(), glm::uvec2(0));
+    sheet[k] = {line->color, code(*line)};
   }
-  if (!any) picture.line.clear();
+  return sheet;
+}
+
+LineSheet GroundLines::top() const {
+  return sheet([](const Texel& texel) { return texel.top.owner != 0 ? &texel.top : nullptr; });
+}
+
+LineSheet GroundLines::below() const {
+  constexpr float kLeastTexelsAPixel = 0.7F;
+  return sheet([](const Texel& texel) -> const Line* {
+    const Line& top = texel.top;
+    const bool hides = top.color >> 24U == 255U && top.away + 1.0F < kLeastTexelsAPixel * top.half_width_px;
+    return texel.below.owner == 0 || hides ? nullptr : &texel.below;
+  });
 }
 
 struct GroundCanvas::Memory {
@@ -343,18 +348,21 @@ GroundPicture paint_ground(const FaceSquare& square, std::span<const GroundChunk
          picture.reach_px < 0.5 * double(widest_px) * stretch + 2.0) {
     picture.reach_px *= 2.0F;
   }
-  GroundLines lines(square, double(picture.reach_px), stretch, canvas.memory().lines);
   const FaceBox within = box_of(square, double(picture.reach_px));
   // Casings lie below all lines, so that lines join where they cross.
   if (casings) {
+    GroundLines around(square, double(picture.reach_px), stretch, canvas.memory().lines);
     each_part(layers, square.face, within, stop, [&](const GroundPart& part, const GroundObject& object) {
-      if (has_line(object) && has_casing(object)) lines.add_casing(part, object);
+      if (has_line(object) && has_casing(object)) around.add_casing(part, object);
     });
+    picture.lines[GroundPicture::casing] = around.top();
   }
+  GroundLines lines(square, double(picture.reach_px), stretch, canvas.memory().lines);
   each_part(layers, square.face, within, stop, [&](const GroundPart& part, const GroundObject& object) {
     if (has_line(object)) lines.add(part, object);
   });
-  lines.take(picture);
+  picture.lines[GroundPicture::top] = lines.top();
+  picture.lines[GroundPicture::below] = lines.below();
   return picture;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
-#include <glm/vec4.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,11 @@ struct FaceSquare {
   double west = -1.0, south = -1.0, side = 2.0;
 };
 
+/// One line for each texel: its colour, RGBA8; and half its width in 1/8 px (9 bits), whether its nearest point is an
+/// end of a piece (1 bit), its distance from the texel's middle (10 bits, 512 + 511 · distance / reach) along a
+/// direction of a half turn (x: 6 bits, 32 + 31 · x; y: 6 bits, 63 · y). 0: no line is within reach.
+using LineSheet = std::vector<glm::uvec2>;
+
 /// The texels of a picture: rows from the south. A square fills the middle; around it is a rim of neighbours' texels.
 struct GroundPicture {
   static constexpr int kSide_px = 256, kRim_px = 4, kInner_px = kSide_px - 2 * kRim_px;
@@ -26,12 +32,10 @@ struct GroundPicture {
 
   /// Colours of areas, premultiplied, RGBA8: all mips, finest first. Empty: no area is there.
   std::vector<std::uint32_t> fill;
-  /// For each texel two lines (GroundLines), first the one that lies on top: its colour, RGBA8; and half its width in
-  /// 1/8 px (9 bits), whether its nearest point is an end of a piece (1 bit), its distance from the texel's middle (10
-  /// bits, 512 + 511 · distance / reach) along a direction of a half turn (x: 6 bits, 32 + 31 · x; y: 6 bits, 63 · y).
-  /// 0: no line is within reach. Empty: no line is in the picture.
-  std::vector<glm::uvec4> line;
-  bool crossed = false;             ///< a texel has a second line
+  /// Lines: those that lie on top, those that show below them where they cross, and casings below both. An empty sheet
+  /// has none.
+  enum { top, below, casing, kSheets };
+  std::array<LineSheet, kSheets> lines;
   float reach_px = kLeastReach_px;  ///< most texels between a line and its texels
 };
 

@@ -83,7 +83,7 @@ void PatchPass::upload_ground(PatchGround& out, const GroundFrame& ground, const
   stream(out.cells, ground.cells);
   stream(out.commands, commands);
   stream(out.limb_indices, limb_indices);
-  glTextureBuffer(out.cells_texture.name(), GL_RG32UI, out.cells.name());
+  glTextureBuffer(out.cells_texture.name(), GL_RGB32UI, out.cells.name());
 }
 
 void PatchPass::draw_ground(const GroundDraw& ground, const PatchLayer& base, const PatchBuffers& vertices,

@@ -170,9 +170,9 @@ Status PatchPass::build(gl::Program& place, std::vector<std::string_view> fragme
                      numbers ? "NUMBERS" : "PICTURES",
                      kStackDefines[extras.stack],
                      extras.ground != 0 ? "ON_GROUND" : "OFF_GROUND",
-                     (extras.ground & 1U) != 0 || extras.ground == kCrossedLines ? "AREAS" : "NO_AREAS",
-                     (extras.ground & 2U) != 0 || extras.ground == kCrossedLines ? "LINES" : "NO_LINES",
-                     extras.ground == kCrossedLines ? "CROSSED" : "APART",
+                     (extras.ground & 1U) != 0 || extras.ground == kMoreLines ? "AREAS" : "NO_AREAS",
+                     (extras.ground & 2U) != 0 || extras.ground == kMoreLines ? "LINES" : "NO_LINES",
+                     extras.ground == kMoreLines ? "MORE_LINES" : "ONE_LINE",
                      (extras.ground & 4U) != 0 ? "SLANTED" : "LEVEL",
                      extras.ground_alone ? "GROUND_ALONE" : "GROUND_BELOW",
                      has_relief_ ? "GROUND_CELLS 13" : "GROUND_CELLS 9"});
