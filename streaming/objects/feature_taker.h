@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "streaming/objects/geojson_objects.h"
+#include "streaming/objects/icon_shelf.h"
+#include "streaming/objects/model_shelf.h"
+
+namespace terrella {
+
+/// Makes objects of the features of a file, one feature after the other. thread: one at a time
+class FeatureTaker {
+ public:
+  /// `where` begins each complaint. Models and icons are read from `folder`. `file` must outlive the taker.
+  FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file);
+
+  /// Adds the objects of a GeoJSON feature, or a complaint. `index`: its number in the file, counted from 0.
+  void take(const nlohmann::json& feature, std::size_t index);
+  /// Adds a complaint, or counts it if there are many.
+  void complain_of(const std::string& what);
+  /// Makes further features earthquakes of a catalogue.
+  void expect_quakes() { quakes_ = true; }
+
+ private:
+  void set_icon(ObjectStyle& style, const Complain& complain);
+
+  std::string where_;
+  ModelShelf models_;
+  IconShelf icons_;
+  ObjectId first_;
+  ObjectFile& file_;
+  bool quakes_ = false;
+};
+
+}  // namespace terrella
