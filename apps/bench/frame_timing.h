@@ -13,16 +13,18 @@ namespace terrella::bench {
 struct Subject {
   std::string name;
   std::function<void()> draw;
-  std::vector<double> ms = {};      ///< GPU time by a timer query; wall time to the end of glFinish on software GL
-  std::vector<double> cpu_ms = {};  ///< processor time of the whole process, unaffected by other programs
+  std::vector<double> ms = {};        ///< GPU time by a timer query; wall time to the end of glFinish on software GL
+  std::vector<double> cpu_ms = {};    ///< processor time of the whole process, unaffected by other programs
+  std::vector<double> whole_ms = {};  ///< a whole frame: wall time to the end of glFinish; on software GL, cpu_ms
 };
 
 /// Processor time of the whole process so far.
 [[nodiscard]] double processor_ms();
 
 struct FrameTime {
-  double ms = 0.0;      ///< as Subject::ms
-  double cpu_ms = 0.0;  ///< as Subject::cpu_ms
+  double ms = 0.0;        ///< as Subject::ms
+  double cpu_ms = 0.0;    ///< as Subject::cpu_ms
+  double whole_ms = 0.0;  ///< as Subject::whole_ms
 };
 [[nodiscard]] FrameTime time_frame(const std::function<void()>& draw);
 
