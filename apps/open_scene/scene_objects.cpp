@@ -9,7 +9,7 @@
 #include "apps/process/console.h"
 #include "apps/process/data_dir.h"
 #include "streaming/file_bytes.h"
-#include "streaming/objects/geojson_objects.h"
+#include "streaming/objects/vector_objects.h"
 
 namespace terrella {
 
@@ -37,7 +37,7 @@ void add_label_font(GlobeOptions& options) {
 
 Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (options.objects.empty()) return true;
-  const Result<ObjectFile> file = read_geojson_objects(options.objects);
+  const Result<ObjectFile> file = read_objects(options.objects);
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);

@@ -26,6 +26,7 @@
 #include "apps/python/gl_thread.h"
 #include "apps/python/long_call.h"
 #include "streaming/objects/geojson_objects.h"
+#include "streaming/objects/vector_objects.h"
 #include "streaming/url.h"
 
 namespace terrella {
@@ -51,7 +52,7 @@ T value_or_raise(Result<T> result) {
 ObjectScene objects_of(const py::object& geojson) {
   Result<ObjectFile> file = Error{};
   if (py::isinstance<py::str>(geojson) || py::hasattr(geojson, "__fspath__")) {
-    file = read_geojson_objects(py::str(geojson).cast<std::string>());
+    file = read_objects(py::str(geojson).cast<std::string>());
   } else {
     const py::object plain =
         py::hasattr(geojson, "__geo_interface__") ? py::object(geojson.attr("__geo_interface__")) : geojson;
@@ -255,7 +256,8 @@ void add_layer_methods(GlobeClass& globe) {
            "Add a layer of imagery on top: all that render() takes as TILESET. Returns the layer's number.")
       .def("add_objects", &add_objects, py::arg("geojson"),
            "add_objects(self, geojson)\n--\n\n"
-           "Add a layer of objects: the path of a GeoJSON file, a dict, or an object with __geo_interface__. Returns "
+           "Add a layer of objects: the path of a file (GeoJSON, KML, GPX, shapefile, GeoPackage, ...), a dict, or an "
+           "object with __geo_interface__. Returns "
            "the layer's number.")
       .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"),
            "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer.")

@@ -17,6 +17,7 @@ set(TERRELLA_PUBLIC_HEADERS
   engine/codecs/image.h
   engine/codecs/numbers.h
   streaming/objects/geojson_objects.h
+  streaming/objects/vector_objects.h
   streaming/preload/preloader.h
   streaming/remote/describe_remote.h
   streaming/remote/grid_check.h

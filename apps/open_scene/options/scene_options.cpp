@@ -113,8 +113,12 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
           "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
           "viewer's shoulder)")
       ->type_name("UTC");
-  command.add_option("--objects", options.objects, "Draw points, lines and areas, over and under the ground")
-      ->type_name("F.geojson");
+  command
+      .add_option(
+          "--objects", options.objects,
+          "Draw points, lines and areas, over and under the ground: GeoJSON, KML, GPX, a shapefile, FlatGeobuf, "
+          "GeoPackage or CSV")
+      ->type_name("FILE");
 }
 
 void add_map_options(CLI::App& command, SceneOptions& options) {

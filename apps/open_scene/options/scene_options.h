@@ -41,7 +41,7 @@ struct SceneOptions {
   double cloud_height_m = 0.0;                   ///< height of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
-  std::string objects;          ///< GeoJSON file; empty: none
+  std::string objects;          ///< GeoJSON, or a vector file of GDAL's; empty: none
   std::optional<bool> map;      ///< --map; absent: the command's default
   std::string places;           ///< GeoJSON file of names, for map and search; empty: the Earth's cities
   bool sky = true;              ///< stars, Sun, Moon and atmosphere

@@ -11,6 +11,7 @@
 #include "apps/process/console.h"
 #include "streaming/file_bytes.h"
 #include "streaming/objects/gltf_model.h"
+#include "streaming/objects/vector_objects.h"
 #include "streaming/url.h"
 
 namespace terrella {
@@ -51,6 +52,13 @@ Result<OpenedFile> open_objects(const std::filesystem::path& path, Result<Object
   return OpenedFile{path, *std::move(file)};
 }
 
+/// True for a folder or file that may hold tiles or features, which only its content tells.
+bool is_of_either(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  std::error_code unknown;
+  return (extension == ".gpkg" || std::filesystem::is_directory(path, unknown)) && is_vector_file(path);
+}
+
 /// Numbers are the ground's heights if they say so.
 bool is_of_heights(const TileSetInfo& info) {
   return info.numbers && (info.numbers->quantity == "height" || info.numbers->unit == "m");
@@ -69,12 +77,15 @@ std::string shown_name(const std::filesystem::path& path) {
 Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceOptions& options, const Geodetic& place,
                                 const CutProgress& progress) {
   const std::string extension = lower_extension(path);
-  const bool of_objects = extension == ".geojson" || extension == ".glb" || extension == ".gltf";
-  if (of_objects && path.string().find("://") != std::string::npos) {
+  const bool is_file = path.string().find("://") == std::string::npos;
+  const bool of_objects = extension == ".geojson" || (is_vector_file(path) && !is_of_either(path)) ||
+                          extension == ".glb" || extension == ".gltf";
+  if (of_objects && !is_file) {
     return Error{Url(path.string()).redacted() +
-                 ": GeoJSON and glTF models are read from files only; download this one, and open the file"};
+                 ": objects and models are read from files only; download this one, and open the file"};
   }
   if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
+  if (of_objects && is_vector_file(path)) return open_objects(path, read_vector_objects(path));
   if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
   SourceOptions tiles_options = options_beside(options, path.string());
   std::vector<std::shared_ptr<GrowingCut>> cuts;
@@ -82,6 +93,10 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceO
   OpenedRasters rasters;
   tiles_options.opened = &rasters;
   auto tiles = open_any_tiles(tiles_options, progress);
+  if (!tiles && is_file && is_of_either(path)) {
+    auto features = open_objects(path, read_vector_objects(path));
+    if (features) return features;
+  }
   if (!tiles) return tiles.error();
   FactsReader read_facts = facts_reader(tiles_options.address, {}, {}, rasters);
   if (!is_of_heights((*tiles)->info())) {

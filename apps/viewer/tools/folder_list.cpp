@@ -20,9 +20,9 @@ std::string lowered(std::string text) {
 }  // namespace
 
 bool has_shown_name(const std::filesystem::path& path) {
-  constexpr std::array kEndings = {".jpg",  ".jpeg",    ".png",     ".tif",  ".tiff",    ".webp",
-                                   ".gpkg", ".mbtiles", ".pmtiles", ".json", ".geojson", ".gltf",
-                                   ".glb",  ".xml",     ".wms",     ".lst",  ".txt"};
+  constexpr std::array kEndings = {".jpg",     ".jpeg", ".png",     ".tif",  ".tiff", ".webp", ".gpkg", ".mbtiles",
+                                   ".pmtiles", ".json", ".geojson", ".gltf", ".glb",  ".xml",  ".wms",  ".lst",
+                                   ".txt",     ".kml",  ".kmz",     ".gpx",  ".shp",  ".fgb",  ".csv"};
   return std::ranges::find(kEndings, lowered(path.extension().string())) != kEndings.end();
 }
 

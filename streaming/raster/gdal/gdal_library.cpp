@@ -37,8 +37,9 @@ std::vector<const char*> file_drivers(const GdalApi& api) {
 Result<std::unique_ptr<const GdalApi>> load() {
   void* library = dlopen(TERRELLA_GDAL_SONAME, RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) {
-    return Error{fmt::format("rasters are read by GDAL, and {} is not installed: apt-get install libgdal32",
-                             TERRELLA_GDAL_SONAME)};
+    return Error{
+        fmt::format("rasters and vector files are read by GDAL, and {} is not installed: apt-get install libgdal32",
+                    TERRELLA_GDAL_SONAME)};
   }
   auto api = std::make_unique<GdalApi>();
   const char* missing = nullptr;

@@ -6,6 +6,7 @@
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <gdal_utils.h>
+#include <ogr_api.h>
 #include <ogr_srs_api.h>
 
 #include <functional>
@@ -17,8 +18,8 @@
 
 namespace terrella {
 
-/// Functions of GDAL's C interface that Terrella calls. The library is loaded when the first raster is opened, because
-/// loading takes some 40 ms and programs without rasters need none of it.
+/// Functions of GDAL's C interface that Terrella calls. The library is loaded when the first raster or vector file is
+/// opened, because loading takes some 40 ms and programs without such files need none of it.
 // clang-format off
 #define TERRELLA_GDAL_FUNCTIONS(X) \
   X(CPLGetErrorHandlerUserData) X(CPLPopErrorHandler) X(CPLPushErrorHandlerEx) X(CPLSetThreadLocalConfigOption) \
@@ -33,6 +34,19 @@ namespace terrella {
   X(GDALGetRasterXSize) X(GDALGetRasterYSize) X(GDALGetSpatialRef) X(GDALIdentifyDriverEx) X(GDALOpenEx) \
   X(GDALRasterIOEx) X(GDALReadBlock) X(GDALSetCacheMax64) X(GDALWarp) X(GDALWarpAppOptionsFree) \
   X(GDALWarpAppOptionsNew) X(OSRExportToWktEx) X(OSRGetName) X(OSRIsLocal) \
+  X(CPLForceToASCII) X(CPLIsUTF8) X(CSLDestroy) X(GDALDatasetGetLayer) X(GDALDatasetGetLayerCount) \
+  X(OCTDestroyCoordinateTransformation) X(OCTNewCoordinateTransformation) X(OGR_FD_GetFieldCount) \
+  X(OGR_FD_GetFieldDefn) X(OGR_F_Destroy) X(OGR_F_GetFieldAsDouble) X(OGR_F_GetFieldAsInteger64) \
+  X(OGR_F_GetFieldAsString) X(OGR_F_GetGeometryRef) X(OGR_F_GetStyleString) X(OGR_F_IsFieldSetAndNotNull) \
+  X(OGR_Fld_GetNameRef) X(OGR_Fld_GetSubType) X(OGR_Fld_GetType) X(OGR_GT_Flatten) X(OGR_G_DestroyGeometry) \
+  X(OGR_G_GetGeometryCount) X(OGR_G_GetGeometryName) X(OGR_G_GetGeometryRef) X(OGR_G_GetGeometryType) \
+  X(OGR_G_GetLinearGeometry) X(OGR_G_GetPointCount) X(OGR_G_GetX) X(OGR_G_GetY) X(OGR_G_GetZ) X(OGR_G_Is3D) \
+  X(OGR_G_IsEmpty) X(OGR_G_Transform) X(OGR_G_WkbSize) X(OGR_L_GetExtent) X(OGR_L_GetLayerDefn) \
+  X(OGR_L_GetName) X(OGR_L_GetNextFeature) X(OGR_L_GetSpatialRef) X(OGR_L_ResetReading) X(OGR_SM_Create) \
+  X(OGR_SM_Destroy) X(OGR_SM_GetPart) X(OGR_SM_GetPartCount) X(OGR_ST_Destroy) X(OGR_ST_GetParamDbl) \
+  X(OGR_ST_GetParamStr) X(OGR_ST_GetType) X(OGR_ST_SetUnit) X(OSRCloneGeogCS) X(OSRDestroySpatialReference) \
+  X(OSRGetSemiMajor) X(OSRNewSpatialReference) X(OSRSetAxisMappingStrategy) X(OSRSetWellKnownGeogCS) \
+  X(VSIFCloseL) X(VSIFOpenL) X(VSIFReadL) X(VSIReadDirRecursive) X(VSIStatExL) \
   X(VSIAllocFilesystemPluginCallbacksStruct) X(VSIFree) X(VSIFreeFilesystemPluginCallbacksStruct) \
   X(VSIInstallPluginHandler)
 // clang-format on

@@ -1,0 +1,173 @@
+#include "streaming/objects/vector/vector_feature.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/number.h"
+#include "streaming/objects/geojson_objects.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+json position_of(OGRGeometryH line, int index) {
+  json position{gdal().OGR_G_GetX(line, index), gdal().OGR_G_GetY(line, index)};
+  if (gdal().OGR_G_Is3D(line) != 0) position.push_back(gdal().OGR_G_GetZ(line, index));
+  return position;
+}
+
+json positions_of(OGRGeometryH line) {
+  json positions = json::array();
+  for (int i = 0; i < gdal().OGR_G_GetPointCount(line); ++i) positions.push_back(position_of(line, i));
+  return positions;
+}
+
+template <class Read>
+json parts_of(OGRGeometryH geometry, const Read& read) {
+  json parts = json::array();
+  for (int i = 0; i < gdal().OGR_G_GetGeometryCount(geometry); ++i) {
+    OGRGeometryH part = gdal().OGR_G_GetGeometryRef(geometry, i);
+    if (gdal().OGR_G_IsEmpty(part) == 0) parts.push_back(read(part));
+  }
+  return parts;
+}
+
+json rings_of_polygon(OGRGeometryH polygon) { return parts_of(polygon, positions_of); }
+
+json with_coordinates(const char* type, json coordinates) {
+  return {{"type", type}, {"coordinates", std::move(coordinates)}};
+}
+
+/// Null for a kind that GeoJSON does not have.
+json read_flat(OGRGeometryH geometry) {
+  switch (gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry))) {
+    case wkbPoint:
+      return with_coordinates("Point", position_of(geometry, 0));
+    case wkbLineString:
+      return with_coordinates("LineString", positions_of(geometry));
+    case wkbPolygon:
+      return with_coordinates("Polygon", rings_of_polygon(geometry));
+    case wkbMultiPoint:
+      return with_coordinates("MultiPoint", parts_of(geometry, [](OGRGeometryH one) { return position_of(one, 0); }));
+    case wkbMultiLineString:
+      return with_coordinates("MultiLineString", parts_of(geometry, positions_of));
+    case wkbMultiPolygon:
+      return with_coordinates("MultiPolygon", parts_of(geometry, rings_of_polygon));
+    case wkbGeometryCollection:
+      return {{"type", "GeometryCollection"}, {"geometries", parts_of(geometry, read_flat)}};
+    default:
+      return {{"type", gdal().OGR_G_GetGeometryName(geometry)}};  // GeoJSON's reader refuses it by name
+  }
+}
+
+/// Text in UTF-8: other bytes become question marks.
+std::string utf8_of(const char* text) {
+  if (text == nullptr) return {};
+  if (gdal().CPLIsUTF8(text, -1) != 0) return text;
+  char* const plain = gdal().CPLForceToASCII(text, -1, '?');
+  std::string copy = plain == nullptr ? "" : plain;
+  gdal().VSIFree(plain);
+  return copy;
+}
+
+json value_of(OGRFeatureH feature, OGRFieldDefnH field, int index) {
+  const OGRFieldType type = gdal().OGR_Fld_GetType(field);
+  if (type == OFTInteger && gdal().OGR_Fld_GetSubType(field) == OFSTBoolean) {
+    return gdal().OGR_F_GetFieldAsInteger64(feature, index) != 0;
+  }
+  if (type == OFTInteger || type == OFTInteger64) {
+    return static_cast<std::int64_t>(gdal().OGR_F_GetFieldAsInteger64(feature, index));
+  }
+  if (type == OFTReal) {
+    const double number = gdal().OGR_F_GetFieldAsDouble(feature, index);
+    return std::isfinite(number) ? json(number) : json();
+  }
+  return utf8_of(gdal().OGR_F_GetFieldAsString(feature, index));
+}
+
+/// A part of a style: a pen, a brush or a symbol.
+class StyleTool {
+ public:
+  StyleTool(OGRStyleMgrH styles, int part, const char* style) : tool_(gdal().OGR_SM_GetPart(styles, part, style)) {
+    if (tool_ != nullptr) gdal().OGR_ST_SetUnit(tool_, OGRSTUPixel, 1.0);
+  }
+  ~StyleTool() {
+    if (tool_ != nullptr) gdal().OGR_ST_Destroy(tool_);
+  }
+  StyleTool(const StyleTool&) = delete;
+  StyleTool& operator=(const StyleTool&) = delete;
+
+  [[nodiscard]] OGRSTClassId kind() const { return tool_ == nullptr ? OGRSTCNone : gdal().OGR_ST_GetType(tool_); }
+
+  /// Adds a colour "#rrggbb" or "#rrggbbaa" of the style, with its opacity if `opacity` is named.
+  void add_colour(int parameter, const char* name, const char* opacity, json& properties) const {
+    int is_absent = 1;
+    const char* text = gdal().OGR_ST_GetParamStr(tool_, parameter, &is_absent);
+    const std::string_view colour = text == nullptr || is_absent != 0 ? "" : text;
+    if (!colour.starts_with('#') || (colour.size() != 7 && colour.size() != 9) || properties.contains(name)) return;
+    properties[name] = colour.substr(0, 7);
+    if (opacity == nullptr || colour.size() == 7 || properties.contains(opacity)) return;
+    unsigned alpha = 255;
+    std::from_chars(colour.data() + 7, colour.data() + 9, alpha, 16);
+    properties[opacity] = static_cast<double>(alpha) / 255.0;
+  }
+
+  void add_width(json& properties) const {
+    int is_absent = 1;
+    const double width_px = gdal().OGR_ST_GetParamDbl(tool_, OGRSTPenWidth, &is_absent);
+    if (is_absent == 0 && width_px >= 0.0 && !properties.contains("stroke-width"))
+      properties["stroke-width"] = width_px;
+  }
+
+ private:
+  OGRStyleToolH tool_;
+};
+
+}  // namespace
+
+Result<json> geojson_of(OGRGeometryH geometry) {
+  if (geometry == nullptr || gdal().OGR_G_IsEmpty(geometry) != 0) return json();
+  const std::unique_ptr<void, decltype(gdal().OGR_G_DestroyGeometry)> flat(
+      gdal().OGR_G_GetLinearGeometry(geometry, 0.0, nullptr), gdal().OGR_G_DestroyGeometry);
+  if (!flat) return Error{"its curves cannot be read"};
+  if (gdal().OGR_G_WkbSize(flat.get()) / static_cast<int>(sizeof(double)) > static_cast<int>(kMaxFeatureValues)) {
+    return Error{fmt::format("it has more than {} numbers; divide it", kMaxFeatureValues)};
+  }
+  return read_flat(flat.get());
+}
+
+json properties_of(OGRFeatureH feature, OGRFeatureDefnH definition) {
+  json properties = json::object();
+  for (int i = 0; i < gdal().OGR_FD_GetFieldCount(definition); ++i) {
+    if (gdal().OGR_F_IsFieldSetAndNotNull(feature, i) == 0) continue;
+    OGRFieldDefnH field = gdal().OGR_FD_GetFieldDefn(definition, i);
+    properties[utf8_of(gdal().OGR_Fld_GetNameRef(field))] = value_of(feature, field, i);
+  }
+  return properties;
+}
+
+void add_style(OGRFeatureH feature, json& properties) {
+  const char* const style = gdal().OGR_F_GetStyleString(feature);
+  if (style == nullptr) return;
+  const std::unique_ptr<void, decltype(gdal().OGR_SM_Destroy)> styles(gdal().OGR_SM_Create(nullptr),
+                                                                      gdal().OGR_SM_Destroy);
+  for (int i = 0; i < gdal().OGR_SM_GetPartCount(styles.get(), style); ++i) {
+    const StyleTool tool(styles.get(), i, style);
+    if (tool.kind() == OGRSTCPen) {
+      tool.add_colour(OGRSTPenColor, "stroke", "stroke-opacity", properties);
+      tool.add_width(properties);
+    } else if (tool.kind() == OGRSTCBrush) {
+      tool.add_colour(OGRSTBrushFColor, "fill", "fill-opacity", properties);
+    } else if (tool.kind() == OGRSTCSymbol) {
+      tool.add_colour(OGRSTSymbolColor, "marker-color", nullptr, properties);
+    }
+  }
+}
+
+}  // namespace terrella

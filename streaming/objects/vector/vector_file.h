@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "streaming/raster/gdal/gdal_library.h"
+
+namespace terrella {
+
+struct CloseVectorFile {
+  void operator()(GDALDatasetH dataset) const { gdal().GDALClose(dataset); }
+};
+
+/// An open vector file, used by one thread at a time.
+struct VectorFile {
+  std::unique_ptr<void, CloseVectorFile> dataset;
+  std::string driver;      ///< GDAL's name of the format
+  bool has_links = false;  ///< KML with network links, which are not followed
+};
+
+/// Settings that must hold while a vector file is opened and read: shared styles of KML count, styles elsewhere do not.
+[[nodiscard]] GdalSettings::Settings vector_settings();
+/// The driver that may open a file of this name; null if none may. thread: any
+[[nodiscard]] const char* vector_driver_of(const std::filesystem::path& path);
+/// Opens a vector file by that driver alone. The error names the file. Blocks. thread: any
+[[nodiscard]] Result<VectorFile> open_vector_file(const std::filesystem::path& path);
+
+}  // namespace terrella

@@ -1,0 +1,174 @@
+#include "streaming/objects/vector_objects.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "streaming/objects/feature_taker.h"
+#include "streaming/objects/vector/vector_feature.h"
+#include "streaming/objects/vector/vector_file.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+
+struct DestroyFeature {
+  void operator()(OGRFeatureH feature) const { gdal().OGR_F_Destroy(feature); }
+};
+struct DestroyTransformation {
+  void operator()(OGRCoordinateTransformationH way) const { gdal().OCTDestroyCoordinateTransformation(way); }
+};
+struct DestroySystem {
+  void operator()(OGRSpatialReferenceH system) const { gdal().OSRDestroySpatialReference(system); }
+};
+using Transformation = std::unique_ptr<void, DestroyTransformation>;
+
+/// Longitude and latitude on WGS84, or on the system's own body.
+std::unique_ptr<void, DestroySystem> degrees_beside(OGRSpatialReferenceH system) {
+  constexpr double kEarth_m = 6'378'137.0, kAlike_m = 10'000.0;  // no ellipsoid of the Earth differs by 2 km
+  std::unique_ptr<void, DestroySystem> degrees;
+  OGRErr unknown = OGRERR_NONE;
+  if (std::abs(gdal().OSRGetSemiMajor(system, &unknown) - kEarth_m) > kAlike_m && unknown == OGRERR_NONE) {
+    degrees.reset(gdal().OSRCloneGeogCS(system));
+  } else {
+    degrees.reset(gdal().OSRNewSpatialReference(nullptr));
+    if (gdal().OSRSetWellKnownGeogCS(degrees.get(), "WGS84") != OGRERR_NONE) return nullptr;
+  }
+  if (degrees) gdal().OSRSetAxisMappingStrategy(degrees.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  return degrees;
+}
+
+/// Reads the layers of a file, one feature at a time.
+class LayerReader {
+ public:
+  LayerReader(const VectorFile& file, FeatureTaker& taker)
+      : file_(file), is_kml_(file.driver == "LIBKML"), taker_(taker) {}
+
+  void read_all() {
+    const int layers = gdal().GDALDatasetGetLayerCount(file_.dataset.get());
+    for (int i = 0; i < layers && count_ < kMaxVectorFeatures; ++i) {
+      OGRLayerH layer = gdal().GDALDatasetGetLayer(file_.dataset.get(), i);
+      if (layer != nullptr && !repeats_lines(gdal().OGR_L_GetName(layer))) read(layer);
+    }
+    if (file_.has_links) taker_.complain_of("its files of NetworkLink elements are not read; open them one by one");
+    if (overlays_ > 0) {
+      taker_.complain_of(fmt::format("{} GroundOverlay pictures are left out; open them as pictures", overlays_));
+    }
+    if (above_sea_) {
+      taker_.complain_of(
+          "its heights over the sea are taken as heights over the ellipsoid: they differ by up to 110 m");
+    }
+  }
+
+ private:
+  /// GPX states the places of tracks and routes again, as points.
+  [[nodiscard]] bool repeats_lines(std::string_view layer) const {
+    return file_.driver == "GPX" && (layer == "track_points" || layer == "route_points");
+  }
+
+  /// Finds the way to degrees; null if the layer is in degrees.
+  static Status find_way(OGRLayerH layer, Transformation& way) {
+    const GdalMessages messages;
+    OGRSpatialReferenceH system = gdal().OGR_L_GetSpatialRef(layer);
+    if (system == nullptr) {
+      OGREnvelope box{};
+      const bool is_known = gdal().OGR_L_GetExtent(layer, &box, 1) == OGRERR_NONE;
+      const bool is_far = box.MinX < -540.0 || box.MaxX > 540.0 || box.MinY < -90.0 || box.MaxY > 90.0;
+      if (is_known && is_far) {
+        return Error{
+            "its coordinates are no degrees, and it names no coordinate system; give it one, as by a .prj file"};
+      }
+      return Done{};
+    }
+    const auto degrees = degrees_beside(system);
+    if (degrees) way.reset(gdal().OCTNewCoordinateTransformation(system, degrees.get()));
+    return way ? Status(Done{}) : Error{"no way from its coordinate system to degrees: " + messages.error()};
+  }
+
+  void read(OGRLayerH layer) {
+    const GdalMessages messages;
+    const std::string name = gdal().OGR_L_GetName(layer);
+    Transformation way;
+    if (const Status found = find_way(layer, way); !found) {
+      return taker_.complain_of(fmt::format("layer {}: {}; it is left out", name, found.error().message));
+    }
+    gdal().OGR_L_ResetReading(layer);
+    OGRFeatureDefnH definition = gdal().OGR_L_GetLayerDefn(layer);
+    while (const std::unique_ptr<void, DestroyFeature> feature{gdal().OGR_L_GetNextFeature(layer)}) {
+      if (count_ == kMaxVectorFeatures) {
+        return taker_.complain_of(fmt::format("its features after the first {} are left out; divide it", count_));
+      }
+      take(feature.get(), definition, way.get());
+    }
+    if (!messages.error().empty()) taker_.complain_of(fmt::format("layer {}: {}", name, messages.error()));
+  }
+
+  void take(OGRFeatureH feature, OGRFeatureDefnH definition, OGRCoordinateTransformationH way) {
+    const std::size_t index = count_++;
+    OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
+    const GdalMessages messages;
+    if (geometry != nullptr && way != nullptr && gdal().OGR_G_Transform(geometry, way) != OGRERR_NONE) {
+      return taker_.complain_of(
+          fmt::format("feature {}: its coordinates have no place in degrees: {}", index + 1, messages.error()));
+    }
+    Result<json> shape = geojson_of(geometry);
+    if (!shape) return taker_.complain_of(fmt::format("feature {}: {}", index + 1, shape.error().message));
+    json properties = properties_of(feature, definition);
+    add_style(feature, properties);
+    if (!properties.contains("name") && properties.contains("Name")) properties["name"] = properties["Name"];
+    if (is_kml_ && is_overlay(properties, *shape)) {
+      ++overlays_;
+      return;
+    }
+    if (is_kml_) follow_kml(properties, geometry);
+    taker_.take({{"type", "Feature"}, {"properties", std::move(properties)}, {"geometry", *std::move(shape)}}, index);
+  }
+
+  /// GDAL reads the picture of a GroundOverlay as an area with an icon.
+  static bool is_overlay(const json& properties, const json& shape) {
+    return properties.contains("icon") && shape.is_object() && shape.at("type") == "Polygon";
+  }
+
+  /// Names of GeoJSON's properties for those of KML.
+  void follow_kml(json& properties, OGRGeometryH geometry) {
+    const auto mode = properties.find("altitudeMode");
+    const std::string said = mode != properties.end() && mode->is_string() ? mode->get<std::string>() : "";
+    const bool has_heights = said == "absolute" || said == "relativeToGround";
+    properties["altitude-mode"] = has_heights ? said : "clampToGround";
+    above_sea_ |= said == "absolute" && geometry != nullptr && gdal().OGR_G_Is3D(geometry) != 0;
+    for (const char* name : {"tessellate", "extrude", "visibility", "drawOrder"}) properties.erase(name);
+  }
+
+  const VectorFile& file_;
+  bool is_kml_;
+  FeatureTaker& taker_;
+  std::size_t count_ = 0;
+  std::size_t overlays_ = 0;
+  bool above_sea_ = false;
+};
+
+}  // namespace
+
+bool is_vector_file(const std::filesystem::path& path) { return vector_driver_of(path) != nullptr; }
+
+Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first) {
+  const auto opened = open_vector_file(path);
+  if (!opened) return opened.error();
+  const GdalSettings settings(vector_settings());
+  ObjectFile file;
+  FeatureTaker taker(path.string(), path.has_parent_path() ? path.parent_path() : ".", first, file);
+  LayerReader(*opened, taker).read_all();
+  if (!file.scene.empty()) return file;
+  const std::string why =
+      file.complaints.empty() ? path.string() + ": it has no features with a place" : file.complaints.front();
+  return Error{why};
+}
+
+Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first) {
+  return is_vector_file(path) ? read_vector_objects(path, first) : read_geojson_objects(path, first);
+}
+
+}  // namespace terrella
