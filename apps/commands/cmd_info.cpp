@@ -11,6 +11,7 @@
 
 #include "apps/commands/picture_report.h"
 #include "apps/commands/tile_set_report.h"
+#include "apps/commands/vector_report.h"
 #include "apps/commands/verify_tiles.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/open_remote_tiff.h"
@@ -20,6 +21,7 @@
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
 #include "streaming/cache/cache_report.h"
+#include "streaming/objects/vector_objects.h"
 #include "streaming/remote/describe_remote.h"
 #include "streaming/sets/open_tile_set.h"
 #include "tiles/tile_range.h"
@@ -45,6 +47,7 @@ constexpr const char* kInfoExamples =
     "  terrella info tiles/ --verify         decode every tile and name those that are broken\n"
     "  terrella info planet.gpkg --json      the same for a program to read\n"
     "  terrella info dem/                    a folder of rasters as one tile set: how many, and which are left out\n"
+    "  terrella info roads.gpkg              a vector file's layers, features, fields and coordinate systems\n"
     "  terrella info moon.tif                a picture's stated place, and how the picture is shown or why not\n"
     "  terrella info https://host/moon.tif   the same of a TIFF on a server, by a few requests";
 
@@ -105,29 +108,49 @@ int run_picture_info(const InfoOptions& options, const Result<PictureFacts>& fac
   return kDone;
 }
 
+int run_vector_info(const InfoOptions& options, const fs::path& path) {
+  if (options.verify) return fail("info", one_line(path.string()) + ": --verify checks tiles, and this file has none");
+  const auto facts = describe_vector(path);
+  if (!facts) return fail("info", facts.error().message);
+  print_result("{}", vector_report(path, *facts, options.json));
+  return kDone;
+}
+
+/// True for a file that holds features by its name. A GeoPackage or a folder may hold tiles instead.
+bool holds_features(const fs::path& path) {
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown) && path.extension() != ".gpkg" && is_vector_file(path);
+}
+
 Result<PictureFacts> look_at_address(const InfoOptions& options) {
   const auto tiff = open_remote_picture({.source = {.address = options.tile_set}});
   const auto facts = tiff ? look_at(*tiff, options.place, options.band) : Result<PictureFacts>(tiff.error());
   return facts ? facts : Error{facts.error().message + WaitLimit::advice()};
 }
 
+/// The exit code for files that hold features, and for pictures, which are cut only for --verify. None for others.
+std::optional<int> show_other_than_tiles(const InfoOptions& options, const std::string& path) {
+  if (holds_features(path)) return run_vector_info(options, path);
+  if (options.verify) return {};
+  if (is_picture(path)) return run_picture_info(options, look_at(path, options.place, options.band));
+  if (is_remote(options.tile_set) && leads_to_tiff(options.tile_set, {}, {})) {
+    return run_picture_info(options, look_at_address(options));
+  }
+  return {};
+}
+
 int run_info(const InfoOptions& options) {
   const StopSignals signals;
   const WaitLimit limit(options.timeout_s);
-  // Pictures are cut only for --verify.
-  if (!options.verify && is_picture(options.tile_set.with_secrets())) {
-    return run_picture_info(options, look_at(options.tile_set.with_secrets(), options.place, options.band));
-  }
-  if (!options.verify && is_remote(options.tile_set) && leads_to_tiff(options.tile_set, {}, {})) {
-    return run_picture_info(options, look_at_address(options));
-  }
+  const std::string& path = options.tile_set.with_secrets();
+  if (const auto shown = show_other_than_tiles(options, path)) return *shown;
   const Result<std::shared_ptr<TileSource>> source =
       open_any_tiles({.address = options.tile_set,
                       .place = options.place,
                       .numbers = {.nodata = options.band.nodata, .band = options.band.band},
                       .timeout_s = options.timeout_s});
+  if (!source && fs::exists(path) && is_vector_file(path)) return run_vector_info(options, path);
   if (!source) return fail("info", source.error().message);
-  const std::string& path = options.tile_set.with_secrets();
   TileSetReport report{
       .path = options.tile_set, .size_bytes = {}, .info = (*source)->info(), .levels = {}, .cache = {}, .verified = {}};
   report.size_bytes = size_of(path);
@@ -163,7 +186,8 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "TILESET", options->tile_set,
-          "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles, a picture or the address of a TIFF")
+          "A folder of tiles or of rasters, a GeoPackage, PMTiles, MBTiles, a picture, the address of a TIFF or a "
+          "vector file")
       ->required();
   add_place_options(*command, options->place);
   command->add_option("--band", options->band.band, "Describe this band of a TIFF, counted from 1")

@@ -253,10 +253,50 @@ class Maker:
                                                    "max_level": 1, "attribution": "nobody", "headers": ["X-Key: secret"]}))
         yield Seed(folder, "a.json", ("a.json",))
 
+    def vector(self, driver, name, *mutable, options=()):
+        """Features that GDAL writes: points, a line and an area."""
+        folder = self.new(f"vector-{name}")
+        look = {"name": "T\u00e9st", "height": 12.5, "count": 3}
+        shapes = [("Point", [20, 20]), ("Point", [21, 19])] if name.endswith((".shp", ".gpx", ".csv")) else [
+            ("Point", [20, 20, 9]), ("LineString", [[0, 0], [30, 20], [40, 5]]), ("Polygon", [[[0, 0], [40, 0], [40, 30], [0, 0]]])]
+        features = [{"type": "Feature", "properties": look, "geometry": {"type": kind, "coordinates": where}} for kind, where in shapes]
+        (folder / "in.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        run("ogr2ogr", "-f", driver, *options, folder / name, folder / "in.geojson")
+        (folder / "in.geojson").unlink()
+        yield Seed(folder, name, mutable or (name,), objects=True)
+
+    def kml(self):
+        yield from self.vector("LIBKML", "a.kmz")
+        folder = self.new("vector-a.kml")
+        (folder / "a.kml").write_text(
+            '<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document><Style id="s"><LineStyle><color>7f0000ff</color>'
+            "<width>6</width></LineStyle><PolyStyle><color>ff00ff00</color></PolyStyle><IconStyle><color>ff00ffff</color><scale>2</scale>"
+            "</IconStyle></Style><Placemark><name>P</name><styleUrl>#s</styleUrl><Point><coordinates>5,5,7</coordinates></Point></Placemark>"
+            "<Placemark><styleUrl>#s</styleUrl><LineString><altitudeMode>relativeToGround</altitudeMode><coordinates>-30,0,100 30,20,100"
+            "</coordinates></LineString></Placemark><Placemark><styleUrl>#s</styleUrl><Polygon><outerBoundaryIs><LinearRing><coordinates>"
+            "1,1 9,1 9,9 1,1</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>")
+        yield Seed(folder, "a.kml", ("a.kml",), objects=True)
+
+    def gpx(self):
+        return self.vector("GPX", "a.gpx", options=("-nln", "waypoints", "-select", "name"))
+
+    def shapefile(self):
+        return self.vector("ESRI Shapefile", "a.shp", "a.shp", "a.shx", "a.dbf", "a.prj")
+
+    def flatgeobuf(self):
+        return self.vector("FlatGeobuf", "a.fgb")
+
+    def features(self):
+        return self.vector("GPKG", "a.gpkg")
+
+    def table(self):
+        return self.vector("CSV", "a.csv", options=("-lco", "GEOMETRY=AS_XY"))
+
     KINDS = {"geopackage": geopackage, "mbtiles": mbtiles, "pmtiles": pmtiles, "folder": folder, "gdal_wms": gdal_wms, "wmts": wmts,
              "geojson": geojson, "gltf": gltf, "tiff": tiff, "picture": picture_file, "beside": beside, "mosaic": mosaic,
              "description": description, "raster-jpeg2000": jpeg2000, "raster-vrt": vrt, "raster-netcdf": netcdf, "raster-fits": fits,
-             "raster-envi": envi, "raster-isis": isis, "raster-pds3": pds3, "raster-pds4": pds4}
+             "raster-envi": envi, "raster-isis": isis, "raster-pds3": pds3, "raster-pds4": pds4, "vector-kml": kml, "vector-gpx": gpx,
+             "vector-shapefile": shapefile, "vector-flatgeobuf": flatgeobuf, "vector-geopackage": features, "vector-csv": table}
 
     def seeds(self, kind):
         return list(self.KINDS[kind](self))

@@ -38,7 +38,8 @@ INTERNAL = re.compile(r"terminate called|Sanitizer|runtime error:|std::|what\(\)
 CONTROL = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 # A mutant that describes a server may have 10^10 places of tiles, and each is a request.
 SMALL_PLAN = dict.fromkeys(("description", "gdal_wms", "wmts"), ("--bbox", "0,0,0.01,0.01"))
-TEXTS = (".json", ".xml", ".txt", ".geojson", ".gltf", ".pgw", ".prj", ".vrt", ".hdr", ".lbl")
+TEXTS = (".json", ".xml", ".txt", ".geojson", ".gltf", ".pgw", ".prj", ".vrt", ".hdr", ".lbl",
+         ".kml", ".gpx", ".csv")
 
 
 @contextlib.contextmanager

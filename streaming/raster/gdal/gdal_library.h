@@ -46,6 +46,8 @@ namespace terrella {
   X(OGR_SM_Destroy) X(OGR_SM_GetPart) X(OGR_SM_GetPartCount) X(OGR_ST_Destroy) X(OGR_ST_GetParamDbl) \
   X(OGR_ST_GetParamStr) X(OGR_ST_GetType) X(OGR_ST_SetUnit) X(OSRCloneGeogCS) X(OSRDestroySpatialReference) \
   X(OSRGetSemiMajor) X(OSRNewSpatialReference) X(OSRSetAxisMappingStrategy) X(OSRSetWellKnownGeogCS) \
+  X(OGRGeometryTypeToName) X(OGR_GetFieldTypeName) X(OGR_L_GetFeatureCount) X(OGR_L_GetGeomType) \
+  X(OSRGetAuthorityCode) X(OSRGetAuthorityName) \
   X(VSIFCloseL) X(VSIFOpenL) X(VSIFReadL) X(VSIReadDirRecursive) X(VSIStatExL) \
   X(VSIAllocFilesystemPluginCallbacksStruct) X(VSIFree) X(VSIFreeFilesystemPluginCallbacksStruct) \
   X(VSIInstallPluginHandler)
