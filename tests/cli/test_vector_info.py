@@ -3,6 +3,7 @@
 import json
 import subprocess
 import unittest
+import zipfile
 
 from program import FAILED, ProgramTest
 
@@ -62,6 +63,25 @@ class VectorInfo(ProgramTest):
         for name in ("a.kml", "a.gpx", "a.shp", "a.fgb", "a.csv.zip"):
             self.write(name, b"<html>no map</html>")
             self.assert_fails(FAILED, "info", name, says=[name])
+
+    def test_kml_that_makes_gdal_crash_is_refused_with_a_cure(self):
+        """GDAL 3.6 follows a null pointer for each of these, whatever the prefix and the encoding, within a KMZ file too."""
+        kml = '<kml xmlns="http://www.opengis.net/kml/2.2" xmlns:gx="http://www.google.com/kml/ext/2.2"><Placemark>{}</Placemark></kml>'
+        model = kml.format("<MultiGeometry><Model/></MultiGeometry>")
+        track = kml.format("<gx:Track><gx:coord>1 1 0</gx:coord></gx:Track>")
+        prefixed = ('<k:kml xmlns:k="http://www.opengis.net/kml/2.2"><k:Placemark><k:MultiGeometry><k:Model/></k:MultiGeometry>'
+                    "</k:Placemark></k:kml>")
+        files = {"model.kml": (model.encode(), "Model"), "track.kml": (track.encode(), "gx:Track"), "prefix.kml": (prefixed.encode(), "Model"),
+                 "wide.kml": (('<?xml version="1.0" encoding="UTF-16"?>' + model).encode("utf-16"), "Model")}
+        for name, (content, says) in files.items():
+            self.write(name, content)
+            self.assert_fails(FAILED, "info", name, says=[name, says])
+        for inner in ("doc.kml", "b.txt"):
+            with zipfile.ZipFile(self.folder / "a.kmz", "w") as kmz:
+                kmz.writestr(inner, model)
+            self.assert_fails(FAILED, "info", "a.kmz", says=["a.kmz", inner, "Model"])
+        self.write("good.kml", kml.format("<gx:Track><when>2020-01-01</when><gx:coord>1 1 0</gx:coord></gx:Track>").encode())
+        self.assert_done("info", "good.kml")
 
     def test_verify_is_refused_for_features(self):
         self.convert("a.fgb", *FORMATS["a.fgb"])

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "streaming/objects/vector/kml_check.h"
 #include "streaming/objects/vector_objects.h"
 
 namespace terrella {
@@ -139,6 +140,9 @@ Result<VectorFile> open_vector_file(const fs::path& path) {
   const std::string zip = "/vsizip/" + whole.string();
   const bool is_kml = std::string_view(driver) == kKml;
   if (const Status fits = check_length(whole, is_zip, is_kml, zip); !fits) return fault(fits.error().message);
+  if (is_kml) {
+    if (const Status good = check_kml(is_zip ? zip : whole.string(), is_zip); !good) return fault(good.error().message);
+  }
   VectorFile file{.dataset = {}, .driver = driver};
   file.dataset.reset(open_by_driver(is_zip && !is_kml ? zip : whole.string(), driver));
   if (!file.dataset) {
