@@ -149,6 +149,21 @@ TEST_F(VectorObjects, KmlKeepsItsSharedStylesAndItsHeights) {
   EXPECT_EQ(file.scene.polygons.at(0).fill, (ObjectColor{0, 255, 0, 255}));
 }
 
+TEST_F(VectorObjects, PointsOfKmlHaveTheColourAndTheScaleOfTheirIcon) {
+  std::string places;
+  for (const char* scale : {"0.5", "1", "2"}) {
+    places += fmt::format(R"(<Placemark><Style><IconStyle><color>ff00ffff</color><scale>{}</scale></IconStyle></Style>
+      <Point><coordinates>5,5</coordinates></Point></Placemark>)",
+                          scale);
+  }
+  const ObjectFile file = good(write("i.kml", kml(places)));
+  ASSERT_EQ(file.scene.points.size(), 3U);
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{255, 255, 0}));
+  EXPECT_EQ(file.scene.points[0].size_px, 7.0F);
+  EXPECT_EQ(file.scene.points[1].size_px, 10.0F);
+  EXPECT_EQ(file.scene.points[2].size_px, 14.0F);
+}
+
 TEST_F(VectorObjects, LinksAndOverlaysOfKmlAreNamed) {
   const ObjectFile file =
       good(write("n.kml", kml(R"(<Placemark><Point><coordinates>5,5</coordinates></Point></Placemark>

@@ -129,6 +129,20 @@ class StyleTool {
   OGRStyleToolH tool_;
 };
 
+/// Adds the scale of a KML icon as one of the three sizes of simplestyle. GDAL would convert it, as sizes that have a
+/// unit; these are of other formats and are left out.
+void add_icon_scale(std::string_view style, json& properties) {
+  constexpr std::string_view kSize = ",s:";
+  const std::size_t at = style.find(kSize);
+  if (at == std::string_view::npos || properties.contains("marker-size")) return;
+  const std::string_view said = style.substr(at + kSize.size());
+  double scale = 0.0;
+  const auto [end, fault] = std::from_chars(said.data(), said.data() + said.size(), scale);
+  if (fault != std::errc() || end == said.data() + said.size() || (*end != ',' && *end != ')')) return;
+  constexpr double kSmall = 0.75, kLarge = 1.25;
+  properties["marker-size"] = scale < kSmall ? "small" : scale > kLarge ? "large" : "medium";
+}
+
 }  // namespace
 
 Result<json> geojson_of(OGRGeometryH geometry) {
@@ -166,6 +180,7 @@ void add_style(OGRFeatureH feature, json& properties) {
       tool.add_colour(OGRSTBrushFColor, "fill", "fill-opacity", properties);
     } else if (tool.kind() == OGRSTCSymbol) {
       tool.add_colour(OGRSTSymbolColor, "marker-color", nullptr, properties);
+      add_icon_scale(style, properties);
     }
   }
 }
