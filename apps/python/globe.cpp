@@ -219,6 +219,20 @@ void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, 
   value_or_raise(self.with_globe([&](Globe& globe) { return globe.edit_objects(LayerId{layer}, std::move(edits)); }));
 }
 
+void grow(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, const std::vector<std::vector<double>>& places,
+          std::size_t drop_first) {
+  LineGrowth growth{.id = ObjectId{id}, .drop_first = drop_first};
+  for (const std::vector<double>& place : places) {
+    if (place.size() != 2 && place.size() != 3) {
+      throw py::value_error("each place is (latitude, longitude) or (latitude, longitude, height)");
+    }
+    growth.append.push_back(geodetic(place[0], place[1], place.size() == 3 ? place[2] : 0.0));
+  }
+  ObjectEdits edits;
+  edits.growths.push_back(std::move(growth));
+  value_or_raise(self.with_globe([&](Globe& globe) { return globe.edit_objects(LayerId{layer}, std::move(edits)); }));
+}
+
 /// Shows or hides a layer of either kind.
 void show(PythonGlobe& self, std::uint64_t layer, bool shown) {
   value_or_raise(self.with_globe([&](Globe& globe) -> Status {
@@ -266,6 +280,11 @@ void add_layer_methods(GlobeClass& globe) {
            "move(self, layer, id, lat, lon, height=0.0, heading=None)\n--\n\n"
            "Move a feature of a layer: its points, labels and models. `heading`, degrees, turns its models and icons. "
            "The first feature of a GeoJSON has id 1.")
+      .def("grow", &grow, py::arg("layer"), py::arg("id"), py::arg("places"), py::arg("drop_first") = 0,
+           "grow(self, layer, id, places, drop_first=0)\n--\n\n"
+           "Let the line of a feature go on to more places, each (latitude, longitude) or (latitude, longitude, "
+           "height), "
+           "and drop that many from its start. Costs what comes and goes, whatever the length of the line.")
       .def("show", &show, py::arg("layer"), py::arg("shown") = true,
            "show(self, layer, shown=True)\n--\n\nShow or hide a layer.")
       .def("set_opacity", &set_opacity, py::arg("layer"), py::arg("opacity"),

@@ -203,6 +203,24 @@ class Globes(ModuleTest):
             with self.assertRaises(terrella.Error):
                 globe.move(layer, 2, 10, 20)
 
+    def test_a_line_grows_to_what_a_whole_one_draws(self):
+        def line(*longitudes):
+            return {"type": "Feature", "properties": {"stroke": "#ff00ff", "stroke-width": 6},
+                    "geometry": {"type": "LineString", "coordinates": [[lon, 0] for lon in longitudes]}}
+
+        with terrella.Globe(NATURAL_EARTH, camera=(0, 0, 8e6), size=SIZE, unlit=True) as globe:
+            layer = globe.add_objects(line(-10, 0, 10))
+            whole = globe.render()
+            globe.set_objects(layer, line(-20, -10))
+            self.assertFalse((globe.render() == whole).all())
+            globe.grow(layer, 1, [(0, 0), (0, 10, 0)], drop_first=1)
+            # The edge of a joint may be off by a quarter of a pixel.
+            self.assertLess(abs(globe.render().astype(int) - whole.astype(int)).max(), 64)
+            with self.assertRaisesRegex(ValueError, "latitude"):
+                globe.grow(layer, 1, [(0, 0, 0, 0)])
+            with self.assertRaises(terrella.Error):
+                globe.grow(layer, 2, [(0, 20)])
+
     def test_globe_draws_what_render_draws(self):
         options = {"camera": (46, 7, 3e6, 0, -60), "size": SIZE, "surface_alpha": 0.7}
         globe = terrella.Globe(NATURAL_EARTH, **options)
