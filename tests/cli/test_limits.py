@@ -44,8 +44,12 @@ class GpuMemory(ProgramTest):
         self.assertNotIn("--memory", self.assert_done(*shot, "--memory", "300").stderr)
 
     def test_lines_and_areas_without_room_are_told(self):
-        (self.folder / "world.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [
-            [[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]]}))
+        world = {"type": "Polygon", "coordinates": [[[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]]}
+        ways = [[[-80, -5], [80, 5]], [[-80, 5], [80, -5]]]  # they cross, so some squares have all kinds of pictures
+        (self.folder / "world.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {}, "geometry": world},
+            *({"type": "Feature", "properties": {"stroke": color, "stroke-width": 4, "casing": "#000000"},
+               "geometry": {"type": "LineString", "coordinates": way}} for color, way in zip(("#ff0000", "#0000ff"), ways))]}))
         shot = ("render", NATURAL_EARTH, "--objects", "world.geojson", "--camera", "0,0,1e8", "--size", "256x256", "-o", "shot.png")
         self.assert_fails(DONE_IN_PART, *shot, "--memory", "64",
                           says=["--memory 64: no room for lines and areas on ", " squares of the ground"])
