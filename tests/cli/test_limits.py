@@ -45,7 +45,7 @@ class GpuMemory(ProgramTest):
 
     def test_lines_and_areas_without_room_are_told(self):
         world = {"type": "Polygon", "coordinates": [[[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]]}
-        ways = [[[-80, -5], [80, 5]], [[-80, 5], [80, -5]]]  # they cross, so some squares have all kinds of pictures
+        ways = [[[-80, -5], [80, 5]], [[-80, 5], [80, -5]]]  # crossing lines: some squares have all kinds of pictures
         (self.folder / "world.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
             {"type": "Feature", "properties": {}, "geometry": world},
             *({"type": "Feature", "properties": {"stroke": color, "stroke-width": 4, "casing": "#000000"},
