@@ -121,7 +121,7 @@ class ShownTest(RemoteTiffTest):
     def test_nginx_20_ms_away(self):
         """The delay is that of a server behind a real nginx, whose log has the requests.
 
-        Tiles of 48 KiB are more than what a request may read between the tiles it is for (4 KiB), so none comes twice.
+        Tiles of 16 KiB are more than what a request may read between the tiles it is for (4 KiB), so none comes twice.
         """
         with range_server(self.planet("-co", "COMPRESS=NONE"), name="a.tif", latency_s=0.02) as (behind, server):
             port = behind.split(":")[2].split("/")[0]
