@@ -14,6 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
+import png
 from ellipsoid_camera import Camera
 
 PROGRAM = os.environ.get("TERRELLA", "terrella")
@@ -302,3 +303,13 @@ class WindowTest(unittest.TestCase):
         kept = self.folder / f"{name}.png"
         files[0].rename(kept)
         return kept
+
+    def picture(self, viewer, name, shows=lambda picture: True):
+        """The screenshot of a window at rest, once it shows what is looked for: events act some frames later."""
+
+        def taken():
+            viewer.settled()
+            picture = png.read(self.screenshot(viewer, name))
+            return picture if shows(picture) else None
+
+        return wait_until(f"the picture {name}", taken)

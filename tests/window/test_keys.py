@@ -67,8 +67,7 @@ class Keys(WindowTest):
         plain = shot("plain")
         for _ in range(2):  # the question is forgotten after 3 s
             viewer.key("Escape")
-            time.sleep(0.5)
-            self.assertGreater(png.changed(plain, png.read(self.screenshot(viewer, "asked"))), 300, "no question")
+            wait_until("the question", lambda: png.changed(plain, png.read(self.screenshot(viewer, "asked"))) > 300)
             time.sleep(4.0)
             self.assertIsNone(viewer.program.poll(), "one Esc does not quit")
         self.assertEqual(viewer.quit(), 0)
@@ -76,21 +75,23 @@ class Keys(WindowTest):
     def test_u_changes_the_opacity_and_s_goes_through_the_kinds_of_stereo(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
         ground = [SIZE[0] // 2, SIZE[1] // 2 - 60]
-        plain = png.read(self.screenshot(viewer, "opaque"))
-        brightness = []
-        for name in ("u70", "u40", "u100"):
+        plain = self.picture(viewer, "opaque")
+
+        def light(picture):
+            return sum(png.pixel(picture, *ground)) / sum(png.pixel(plain, *ground))
+
+        for name, alpha in (("u70", 0.7), ("u40", 0.4), ("u100", 1.0)):
             viewer.key("u")
-            shot = png.read(self.screenshot(viewer, name))
-            brightness.append(sum(png.pixel(shot, *ground)) / sum(png.pixel(plain, *ground)))
-        for seen, alpha in zip(brightness, (0.7, 0.4, 1.0)):
             # Through the rest shines the inner sphere, which is darker than half of this ground.
-            self.assertGreater(seen, alpha - 0.03)
-            self.assertLess(seen, alpha + 0.5 * (1.0 - alpha) + 0.03)
+            self.picture(viewer, name,
+                         lambda picture: alpha - 0.03 < light(picture) < alpha + 0.5 * (1.0 - alpha) + 0.03)
+        before = plain
         for name in ("anaglyph", "side_by_side", "interlaced"):
             viewer.key("s")
-            self.assertGreater(png.changed(plain, png.read(self.screenshot(viewer, name))), 10000, name)
+            before = self.picture(viewer, name, lambda picture: min(png.changed(plain, picture),
+                                                                    png.changed(before, picture)) > 10000)
         viewer.key("s")
-        self.assertLess(png.changed(plain, png.read(self.screenshot(viewer, "mono_again"))), CHANGED_WORDS)
+        self.picture(viewer, "mono_again", lambda picture: png.changed(plain, picture) < CHANGED_WORDS)
 
     def test_the_window_rests_x_goes_under_the_ground_and_b_switches_the_sky(self):
         viewer = self.start("--camera", "20,10,20000000")
@@ -104,19 +105,18 @@ class Keys(WindowTest):
         self.screenshot(viewer, "below")
         viewer.key("x")
         self.assertAlmostEqual(viewer.next_camera().height_m, 2.0e7, delta=1.0)
-        stars = png.read(self.screenshot(viewer, "sky"))
+        stars = self.picture(viewer, "sky")
         viewer.key("b")
-        dark = png.read(self.screenshot(viewer, "no_sky"))
-        self.assertGreater(png.changed(stars, dark), 300)
+        self.picture(viewer, "no_sky", lambda picture: png.changed(stars, picture) > 300)
         viewer.key("b")
-        self.assertLess(png.changed(stars, png.read(self.screenshot(viewer, "sky_again"))), CHANGED_WORDS)
+        self.picture(viewer, "sky_again", lambda picture: png.changed(stars, picture) < CHANGED_WORDS)
 
     def test_f_fills_the_screen_and_goes_back_and_control_q_leaves(self):
         viewer = self.start("--camera", "20,10,12000000")
         before = viewer.geometry()
         viewer.key("f")
         wait_until("the full screen", lambda: viewer.geometry() == (0, 0, 800, 600))
-        self.assertEqual(png.read(self.screenshot(viewer, "full_screen"))[:2], (800, 600))
+        self.picture(viewer, "full_screen", lambda picture: picture[:2] == (800, 600))
         viewer.key("f")
         wait_until("the window", lambda: viewer.geometry()[2:] == before[2:])
         viewer.key("ctrl+q")
@@ -125,37 +125,41 @@ class Keys(WindowTest):
     def test_p_opens_a_panel_that_keys_and_pointer_move(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
         ground = [SIZE[0] - 120, SIZE[1] // 2]
-        plain = png.read(self.screenshot(viewer, "without"))
+        plain = self.picture(viewer, "without")
         viewer.key("p")
-        panel = png.read(self.screenshot(viewer, "panel"))
-        self.assertGreater(png.changed(plain, panel), 20000)
+        self.picture(viewer, "panel", lambda picture: png.changed(plain, picture) > 20000)
         # The first arrow goes from the buttons to the slider of opacity; space takes it, an arrow moves it.
         for key in ("Down", "space"):
             viewer.key(key)
             time.sleep(1.0)
         viewer.xdotool("keydown", "Left", "sleep", "3", "keyup", "Left")
-        keyed = png.read(self.screenshot(viewer, "slid_by_keys"))
-        self.assertLess(sum(png.pixel(keyed, *ground)), 0.97 * sum(png.pixel(plain, *ground)))
+
+        def light(picture):
+            return sum(png.pixel(picture, *ground)) / sum(png.pixel(plain, *ground))
+
+        self.picture(viewer, "slid_by_keys", lambda picture: light(picture) < 0.97)
         self.assertTrue(viewer.camera_stays(), "the arrows were the panel's")
         # Its left half is most transparent.
         viewer.drag((150, 149), (30, 149))
-        dragged = png.read(self.screenshot(viewer, "slid_by_pointer"))
-        self.assertLess(sum(png.pixel(dragged, *ground)), 0.6 * sum(png.pixel(plain, *ground)))
+        dragged = self.picture(viewer, "slid_by_pointer", lambda picture: light(picture) < 0.6)
         self.assertTrue(viewer.camera_stays(), "the drag was the panel's")
         viewer.key("Escape")
-        closed = png.read(self.screenshot(viewer, "closed"))
+        self.picture(viewer, "closed", lambda picture: png.changed(dragged, picture) > 20000)
         self.assertIsNone(viewer.program.poll(), "Esc closes the panel first")
-        self.assertGreater(png.changed(dragged, closed), 20000)
 
     def test_g_is_there_for_both_eyes(self):
         viewer = self.start("--camera", "20,10,12000000", "--unlit", "--stereo", "side-by-side")
-        plain = png.read(self.screenshot(viewer, "without"))
+        plain = self.picture(viewer, "without")
         viewer.key("g")
-        lined = png.read(self.screenshot(viewer, "graticule"))
         half = SIZE[0] // 2
-        for first in (0, half):
-            part = [(half, SIZE[1], [row[3 * first : 3 * (first + half)] for row in p[2]]) for p in (plain, lined)]
-            self.assertGreater(png.changed(*part), 1000, first)
+
+        def lines(picture):
+            """Changed pixels in each half."""
+            parts = [[(half, SIZE[1], [row[3 * first : 3 * (first + half)] for row in p[2]]) for p in (plain, picture)]
+                     for first in (0, half)]
+            return [png.changed(*part) for part in parts]
+
+        self.picture(viewer, "graticule", lambda picture: min(lines(picture)) > 1000)
 
 
 class NoDisplay(unittest.TestCase):

@@ -107,7 +107,7 @@ class Open(WindowTest):
 
     def test_what_is_not_there_is_said_in_the_window(self):
         viewer = self.start("--camera", "20,10,12000000", size=SIZE)
-        before = png.read(self.screenshot(viewer, "before"))
+        before = self.picture(viewer, "before")
         for turn in range(2):
             viewer.key("ctrl+o")
             self.type(viewer, "/nowhere/moon.tif")
@@ -119,9 +119,7 @@ class Open(WindowTest):
         viewer.key("ctrl+o")
         self.type(viewer, str(self.data / "notes.doc"))
         viewer.key("Return")  # a file of another kind: the message names it
-        time.sleep(1.0)
-        told = png.read(self.screenshot(viewer, "another_kind"))
-        self.assertGreater(png.changed(before, told), 3000)
+        wait_until("the message", lambda: png.changed(before, png.read(self.screenshot(viewer, "another_kind"))) > 3000)
         self.assertEqual(self.recent(), [])
         self.assertIsNone(viewer.program.poll())
 

@@ -39,19 +39,26 @@ class Panels(WindowTest):
         heights = self.kept / "heights.png"
         viewer = self.start("--camera", "20,10,12000000", "--elevation", str(self.relief(heights)))
         viewer.key("p")
-        plain = png.read(self.screenshot(viewer, "panel"))
+        viewer.panel("View")
+        plain = self.picture(viewer, "panel")
         viewer.drag((40, 253), (150, 253))
+
         # The blue grip of the slider, which began at 1 of 30, stands where the pointer let it go.
-        slid = png.read(self.screenshot(viewer, "slid"))
-        red, _, blue = png.pixel(slid, 150, 246)
-        self.assertGreater(blue - red, 120, "the grip follows the pointer")
+        def has_grip(picture):
+            red, _, blue = png.pixel(picture, 150, 246)
+            return blue - red > 120
+
+        self.picture(viewer, "slid", has_grip)
         self.assertTrue(viewer.camera_stays(0.5), "the drag was the panel's")
         viewer.click(100, 335)
         viewer.xdotool("type", "--delay", "40", "2026-06-21T00:00Z")
         viewer.key("Return")
-        night = png.read(self.screenshot(viewer, "midnight"))
         ground = (SIZE[0] - 120, SIZE[1] // 2)
-        self.assertLess(sum(png.pixel(night, *ground)), 0.7 * sum(png.pixel(plain, *ground)), "10° E sleeps at midnight")
+
+        def light(picture):
+            return sum(png.pixel(picture, *ground))
+
+        self.picture(viewer, "midnight", lambda picture: light(picture) < 0.7 * light(plain))  # 10° E sleeps
 
     def test_modes_are_not_kept_and_r_returns_to_those_of_the_start(self):
         self.settings.write_text('{"opacity": 0.4, "stereo": "anaglyph", "sky": false}', encoding="ascii")
@@ -60,7 +67,7 @@ class Panels(WindowTest):
 
         def seen(viewer, name):
             time.sleep(1.0)
-            return png.pixel(png.read(self.screenshot(viewer, name)), *ground)
+            return png.pixel(self.picture(viewer, name), *ground)
 
         viewer = self.start(*view)
         plain = seen(viewer, "first_run")
@@ -95,7 +102,7 @@ class Panels(WindowTest):
         write_png(picture, 512, 256, (255, 0, 0))
         viewer = self.start("--camera", "20,10,12000000", "--unlit")
         ground = (SIZE[0] // 2 - 100, SIZE[1] // 2)
-        before = png.pixel(png.read(self.screenshot(viewer, "before")), *ground)
+        before = png.pixel(self.picture(viewer, "before"), *ground)
         viewer.drop(picture)
         wait_until("the picture", lambda: png.pixel(png.read(self.screenshot(viewer, "dropped")), *ground)[0] > 240)
         viewer.key("l")
@@ -106,14 +113,13 @@ class Panels(WindowTest):
         wait_until("the row", lambda: viewer.panel("Layers") != closed)
         self.screenshot(viewer, "row")
         viewer.drag((left + 168, row + 26), (left + 68, row + 26))
-        faded = png.pixel(png.read(self.screenshot(viewer, "faded")), *ground)
-        self.assertLess(faded[0], 240)
+        self.picture(viewer, "faded", lambda picture: png.pixel(picture, *ground)[0] < 240)
         self.assertTrue(viewer.camera_stays(0.3), "the drag was the panel's")
         # Blue Marble shows through again, and with it its attribution, which has its own room.
         self.assertEqual(viewer.layout.panels["Layers"][1], closed[1], "the panel jumped under the pointer")
         viewer.click(left + 22, row)  # the row's check mark
-        hidden = png.pixel(png.read(self.screenshot(viewer, "hidden")), *ground)
-        self.assertLess(max(abs(a - b) for a, b in zip(hidden, before)), 8)
+        self.picture(viewer, "hidden",
+                     lambda picture: max(abs(a - b) for a, b in zip(png.pixel(picture, *ground), before)) < 8)
 
     def test_dropped_places_are_flown_to(self):
         places = self.folder / "places.geojson"
@@ -123,8 +129,12 @@ class Panels(WindowTest):
         there = viewer.next_camera()
         self.assertAlmostEqual(there.lat, 46.0, delta=0.1)
         self.assertAlmostEqual(there.lon, 8.0, delta=0.1)
-        red, green, blue = png.pixel(png.read(self.screenshot(viewer, "places")), SIZE[0] // 2, SIZE[1] // 2)
-        self.assertGreater(min(red, blue) - green, 100, "the marker in the middle")
+
+        def has_marker(picture):
+            red, green, blue = png.pixel(picture, SIZE[0] // 2, SIZE[1] // 2)
+            return min(red, blue) - green > 100
+
+        self.picture(viewer, "places", has_marker)
 
     def test_bad_files_are_told_of_and_lose_nothing(self):
         bad = self.folder / "bad.png"
@@ -132,11 +142,9 @@ class Panels(WindowTest):
         half = self.folder / "half.geojson"
         half.write_text('{"type": "FeatureCo', encoding="ascii")
         viewer = self.start("--camera", "20,10,12000000")
-        plain = png.read(self.screenshot(viewer, "plain"))
+        plain = self.picture(viewer, "plain")
         viewer.drop(bad, half, self.folder / "missing.gpkg")
-        time.sleep(2.0)
-        told = png.read(self.screenshot(viewer, "told"))
-        self.assertGreater(png.changed(plain, told), 3000, "the message")
+        wait_until("the message", lambda: png.changed(plain, png.read(self.screenshot(viewer, "told"))) > 3000)
         self.assertIsNone(viewer.program.poll())
         self.assertTrue(viewer.camera_stays(0.3))
 

@@ -3,7 +3,7 @@
 import unittest
 
 import png
-from real_window import SIZE, WindowTest, wait_until
+from real_window import SIZE, WindowTest
 
 
 class Tools(WindowTest):
@@ -20,12 +20,12 @@ class Tools(WindowTest):
 
     def test_escape_closes_the_search_and_not_the_window(self):
         viewer = self.start("--camera", "10,20,9000000")
-        plain = png.read(self.screenshot(viewer, "plain"))
+        plain = self.picture(viewer, "plain")
         viewer.key("slash")
         viewer.key("x")
         viewer.key("Escape")
-        again = png.read(self.screenshot(viewer, "search_closed"))
-        self.assertLess(png.changed(plain, again), 10000)
+        self.picture(viewer, "search_closed", lambda picture: png.changed(plain, picture) < 10000)
+        self.assertIsNone(viewer.program.poll())
 
     def test_bookmarks_are_there_in_the_next_run(self):
         viewer = self.start("--camera", "10,20,9000000")
@@ -42,26 +42,25 @@ class Tools(WindowTest):
 
     def test_a_way_and_an_area_are_measured(self):
         viewer = self.start("--camera", "0,20,9000000")
-        plain = png.read(self.screenshot(viewer, "before"))
+        plain = self.picture(viewer, "before")
         viewer.key("m")
         middle = (SIZE[0] // 2, SIZE[1] // 2)
         for dx, dy in ((-100, 0), (100, 0), (0, -120)):
             viewer.click(middle[0] + dx, middle[1] + dy)
 
         # The ways between are drawn, in the tool's yellow, where they lie in the picture: the first one on the equator.
-        def with_way():
-            shot = png.read(self.screenshot(viewer, "measured"))
-            red, green, blue = png.pixel(shot, *middle)
-            return shot if min(red, green) - blue > 60 else None
+        def has_way(picture):
+            red, green, blue = png.pixel(picture, *middle)
+            return min(red, green) - blue > 60
 
-        measured = wait_until("a yellow line on the equator", with_way)
+        measured = self.picture(viewer, "measured", has_way)
         self.assertGreater(png.changed(plain, measured), 2000)
         viewer.key("BackSpace")
         viewer.key("Return")
         self.screenshot(viewer, "measured_again")
         viewer.key("m")
-        again = png.read(self.screenshot(viewer, "after"))
-        self.assertLess(png.changed(plain, again), 10000)  # the triangle alone was 12,000
+        # The triangle alone was 12,000.
+        self.picture(viewer, "after", lambda picture: png.changed(plain, picture) < 10000)
         self.assertTrue(viewer.camera_stays(0.2), "clicks that measure do not fly")
 
 
