@@ -75,8 +75,8 @@ Result<Rendered> render_picture(const RenderCommand& command, bool& all_objects)
 
 int tell_of_missing(const RenderCommand& command, const Rendered& rendered, bool all_objects) {
   const FrameStats& stats = rendered.stats;
-  if (const std::string note = memory_note(command.scene.memory_mb, stats); !note.empty()) {
-    print_message("terrella render: {}\n", note);
+  for (const std::string& note : {memory_note(command.scene.memory_mb, stats), font_note(stats)}) {
+    if (!note.empty()) print_message("terrella render: {}\n", note);
   }
   if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
     return all_objects && rasters_left_out() == 0 && stats.ground_left_out == 0 ? kDone : kDoneInPart;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/process/option_names.h"
-#include "objects/label_layout.h"
+#include "base/code_points.h"
 
 namespace terrella {
 namespace {

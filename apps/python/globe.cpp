@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -7,8 +8,10 @@
 #include <CLI/Formatter.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -25,6 +28,7 @@
 #include "apps/python/bindings.h"
 #include "apps/python/gl_thread.h"
 #include "apps/python/long_call.h"
+#include "streaming/objects/feature_style.h"
 #include "streaming/objects/geojson_objects.h"
 #include "streaming/objects/vector_objects.h"
 #include "streaming/url.h"
@@ -48,20 +52,44 @@ T value_or_raise(Result<T> result) {
   return std::move(result).value();
 }
 
+bool is_path(const py::object& value) { return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__"); }
+
+std::string dumped(const py::object& value) {
+  return py::module_::import("json").attr("dumps")(value).cast<std::string>();
+}
+
+/// A path, or a dict.
+FeatureStyle style_of(const py::object& style) {
+  return value_or_raise(is_path(style) ? FeatureStyle::load(py::str(style).cast<std::string>())
+                                       : FeatureStyle::parse(dumped(style), "style"));
+}
+
 /// A path, or anything that json.dumps() writes, or that has __geo_interface__ (shapely, geopandas).
-ObjectScene objects_of(const py::object& geojson) {
+ObjectFile objects_of(const py::object& geojson, const py::object& style) {
+  std::optional<FeatureStyle> look;
+  if (!style.is_none()) look = style_of(style);
   Result<ObjectFile> file = Error{};
-  if (py::isinstance<py::str>(geojson) || py::hasattr(geojson, "__fspath__")) {
-    file = read_objects(py::str(geojson).cast<std::string>());
+  if (is_path(geojson)) {
+    file = read_objects(py::str(geojson).cast<std::string>(), ObjectId{1}, look ? &*look : nullptr);
   } else {
     const py::object plain =
         py::hasattr(geojson, "__geo_interface__") ? py::object(geojson.attr("__geo_interface__")) : geojson;
-    std::istringstream text(py::module_::import("json").attr("dumps")(plain).cast<std::string>());
-    file = parse_geojson_objects(text, "objects");
+    std::istringstream text(dumped(plain));
+    file = parse_geojson_objects(text, "objects", {}, ObjectId{1}, look ? &*look : nullptr);
   }
   ObjectFile read = value_or_raise(std::move(file));
   if (!read.complaints.empty()) conclude({.exit_code = kDoneInPart, .result = {}, .messages = read.complaints});
-  return std::move(read.scene);
+  return read;
+}
+
+/// Features of an object layer, for styles.
+struct LayerFeatures {
+  std::vector<FeatureParts> parts = {};
+  std::size_t count = 0;  ///< all features, drawn or not
+};
+
+LayerFeatures layer_features(const ObjectFile& file) {
+  return {features_of(file.scene), static_cast<std::size_t>(file.next) - 1};
 }
 
 const char* kind_name(ObjectKind kind) {
@@ -90,6 +118,9 @@ class PythonGlobe {
   ~PythonGlobe() { close(); }
   PythonGlobe(const PythonGlobe&) = delete;
   PythonGlobe& operator=(const PythonGlobe&) = delete;
+
+  /// The features of object layers, by their numbers.
+  [[nodiscard]] std::map<std::uint64_t, LayerFeatures>& features() { return features_; }
 
   void close() {
     const py::gil_scoped_release others_run;
@@ -178,6 +209,7 @@ class PythonGlobe {
   Camera camera_;
   GlThread thread_;
   std::unique_ptr<ScenePicture> picture_;  // lives on the thread
+  std::map<std::uint64_t, LayerFeatures> features_;
 };
 
 py::dict pick(PythonGlobe& self, double x, double y) {
@@ -200,15 +232,37 @@ py::dict pick(PythonGlobe& self, double x, double y) {
   return answer;
 }
 
-std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson) {
-  ObjectScene scene = objects_of(geojson);
-  return static_cast<std::uint64_t>(
-      value_or_raise(self.with_globe([&](Globe& globe) { return globe.add_objects(std::move(scene)); })));
+std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py::object& style) {
+  ObjectFile file = objects_of(geojson, style);
+  LayerFeatures features = layer_features(file);
+  const auto layer = static_cast<std::uint64_t>(
+      value_or_raise(self.with_globe([&](Globe& globe) { return globe.add_objects(std::move(file.scene)); })));
+  self.features()[layer] = std::move(features);
+  return layer;
 }
 
-void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson) {
-  ObjectScene scene = objects_of(geojson);
-  value_or_raise(self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(scene)); }));
+void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson, const py::object& style) {
+  ObjectFile file = objects_of(geojson, style);
+  LayerFeatures features = layer_features(file);
+  value_or_raise(
+      self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(file.scene)); }));
+  self.features()[layer] = std::move(features);
+}
+
+using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void set_style(PythonGlobe& self, std::uint64_t layer, const py::object& style, const std::optional<Values>& values) {
+  const FeatureStyle look = style_of(style);
+  const auto found = self.features().find(layer);
+  if (found == self.features().end()) throw py::value_error("set_style is for layers that add_objects() added");
+  const LayerFeatures& features = found->second;
+  const std::span<const double> numbers =
+      values ? std::span(values->data(), static_cast<std::size_t>(values->size())) : std::span<const double>();
+  if (values && (values->ndim() != 1 || numbers.size() != features.count)) {
+    throw py::value_error(fmt::format("values must be one number for each of the {} features", features.count));
+  }
+  value_or_raise(self.with_globe(
+      [&](Globe& globe) { return globe.edit_objects(LayerId{layer}, restyled(features.parts, look, numbers)); }));
 }
 
 void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m,
@@ -268,13 +322,16 @@ void add_layer_methods(GlobeClass& globe) {
       .def("add_imagery", &PythonGlobe::add_imagery, py::arg("tileset"), py::arg("opacity") = 1.0,
            "add_imagery(self, tileset, opacity=1.0)\n--\n\n"
            "Add a layer of imagery on top: all that render() takes as TILESET. Returns the layer's number.")
-      .def("add_objects", &add_objects, py::arg("geojson"),
-           "add_objects(self, geojson)\n--\n\n"
+      .def("add_objects", &add_objects, py::arg("geojson"), py::arg("style") = py::none(),
+           "add_objects(self, geojson, style=None)\n--\n\n"
            "Add a layer of objects: the path of a file (GeoJSON, KML, GPX, shapefile, GeoPackage, ...), a dict, or an "
-           "object with __geo_interface__. Returns "
-           "the layer's number.")
-      .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"),
-           "set_objects(self, layer, geojson)\n--\n\nReplace the objects of a layer.")
+           "object with __geo_interface__. A style is a dict or the path of a JSON file. Returns the layer's number.")
+      .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"), py::arg("style") = py::none(),
+           "set_objects(self, layer, geojson, style=None)\n--\n\nReplace the objects of a layer.")
+      .def("set_style", &set_style, py::arg("layer"), py::arg("style"), py::arg("values") = py::none(),
+           "set_style(self, layer, style, values=None)\n--\n\n"
+           "Draw the features of a layer in another style, without reading them again. `values`, a number for each "
+           "feature, are their field 'value'; NaN: none.")
       .def("move", &move, py::arg("layer"), py::arg("id"), py::arg("lat"), py::arg("lon"), py::arg("height") = 0.0,
            py::arg("heading") = py::none(),
            "move(self, layer, id, lat, lon, height=0.0, heading=None)\n--\n\n"
@@ -293,6 +350,7 @@ void add_layer_methods(GlobeClass& globe) {
           "remove",
           [](PythonGlobe& self, std::uint64_t layer) {
             value_or_raise(self.with_globe([&](Globe& g) { return g.remove(LayerId{layer}); }));
+            self.features().erase(layer);
           },
           py::arg("layer"), "remove(self, layer)\n--\n\nRemove a layer.")
       .def_property_readonly(

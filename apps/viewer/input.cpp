@@ -124,7 +124,7 @@ void Input::listen_to_window() {
     input_of(w).dirty_ = true;
   });
   glfwSetWindowContentScaleCallback(window_.handle(), [](GLFWwindow* w, float, float) {
-    input_of(w).ui_.rescale(input_of(w).window_);
+    input_of(w).ui_.rescale();
     input_of(w).dirty_ = true;
   });
   glfwSetWindowRefreshCallback(window_.handle(), [](GLFWwindow* w) { input_of(w).dirty_ = true; });
@@ -141,6 +141,7 @@ void Input::on_button(int button, int action, int modifiers) {
   if (which == PointerButton::left && !ctrl) pressed_px_ = at;
   if (which == PointerButton::right) right_ = RightPress{at, navigator_.camera()};
   if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), slack_px) && double_clicks_) {
+    pressed_px_.reset();  // its first press was the click
     navigator_.double_click(at, now());
   } else {
     navigator_.pointer_down(which, ctrl, at, now());

@@ -13,6 +13,7 @@
 #include "apps/process/console.h"
 #include "apps/viewer/panels/control_column.h"
 #include "apps/viewer/panels/legend.h"
+#include "apps/viewer/panels/panel_fonts.h"
 
 namespace terrella {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kLoadingPause_s = 1.0 / 60.0;  // between checks for arrived ti
 constexpr double kIdlePause_s = 1.0;            // between retries of failed tiles
 constexpr double kShareOfWait = 0.1;            // a pause, as a share of the time waited so far
 constexpr double kTinyWindow = 22.0;            // height, in text heights
+constexpr double kRoomForBoth = 20.0;           // width, in text heights, for balloon and buttons
 
 }  // namespace
 
@@ -102,11 +104,13 @@ void Viewer::tell_of_finest_texels() {
   was_at_texels_ = there;
 }
 
+void Viewer::click(glm::dvec2 at_px) { measure_.is_on() ? measure_.add(at_px) : balloon_.click(at_px); }
+
 void Viewer::handle_events() {
   for (const InputEvent& event : input_.take_events()) {
     if (event.action != nullptr) event.action->run(*this);
     if (event.action == nullptr && help_.close()) continue;  // a click closes the list of shortcuts
-    if (event.action == nullptr && event.button == PointerButton::left) measure_.add(event.at_px);
+    if (event.action == nullptr && event.button == PointerButton::left) click(event.at_px);
     if (event.action == nullptr && event.button == PointerButton::right) menu_.open_at(event.at_px);
   }
   input_.set_double_clicks(!measure_.is_on());
@@ -156,7 +160,8 @@ void Viewer::wait_for_work() {
   keep_settings();
   const Seconds start = Input::now();
   do {
-    input_.listen(modes_.play().seconds_left(messages_.seconds_left(pause_s(Input::now() - start))));
+    const double pause = balloon_.seconds_left(messages_.seconds_left(pause_s(Input::now() - start)));
+    input_.listen(modes_.play().seconds_left(pause));
   } while (!work());
 }
 
@@ -180,11 +185,14 @@ void Viewer::draw_frame(Viewport framebuffer) {
     layers_.watch_tiles(frame_.stats());
     const std::string note = memory_note(globe_.options().gpu_bytes >> 20, globe_.last_frame());
     if (!note.empty() && !std::exchange(said_memory_, true)) messages_.say(note);
+    const std::string letters = font_note(globe_.last_frame());
+    if (letters != std::exchange(said_letters_, letters)) messages_.say(letters);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
   draw_panels(framebuffer);
-  if (panel_frames_ == 0) pictures_.after_frame(framebuffer);  // a newly opened panel is not drawn yet
+  const bool whole = panel_frames_ == 0 && !letters_wait();  // a newly opened panel is not drawn yet
+  if (whole) pictures_.after_frame(framebuffer);
   glfwSwapBuffers(window_.handle());
   messages_.end_frame();
   frame_graph_.note(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
@@ -201,7 +209,8 @@ void Viewer::draw_panels(Viewport framebuffer) {
     help_.draw(0.0F);
   } else {
     // A tiny window shows an open panel alone.
-    const bool alone = front_panel() != nullptr && window_height() < kTinyWindow * Ui::text_height();
+    const bool tiny = window_height() < kTinyWindow * Ui::text_height();
+    const bool alone = tiny && (front_panel() != nullptr || balloon_.is_in_view());
     const float foot = alone ? 0.0F : draw_texts(status(view));
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->draw(foot);
     if (!alone) draw_legend(foot, false);
@@ -212,12 +221,21 @@ void Viewer::draw_panels(Viewport framebuffer) {
   ui_.end_frame();
 }
 
+// A pointer that rests on the globe gets a name, while no button is held and nothing moves.
+void Viewer::draw_balloon(const View& view, float foot) {
+  const bool busy = input_.is_over_panel() || input_.is_button_held() || measure_.is_on() || menu_.is_open();
+  balloon_.draw_over(view, busy || !navigator_.at_rest() ? std::nullopt : input_.cursor_px(), foot);
+}
+
 // Draws items where the panels leave room.
 void Viewer::draw_over_panels(const View& view, float foot) {
   measure_.draw_over(view, input_.is_over_panel() ? std::nullopt : input_.cursor_px(), foot);
+  const bool narrow = view.viewport.width_px < kRoomForBoth * Ui::text_height() * window_.pixels_per_unit().x;
+  if (narrow) draw_balloon(view, foot);  // has the room of the buttons
   const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
   button_held_ = column.held;
   if (column.clicked != nullptr) column.clicked->run(*this);
+  if (!narrow) draw_balloon(view, foot);
   // Lines first. Names keep off panels, objects' labels and the graticule's labels.
   map_.draw_lines(view);
   const std::vector<UiBox> panels = Ui::panel_boxes();

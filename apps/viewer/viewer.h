@@ -8,6 +8,7 @@
 
 #include "apps/open_scene/options/source_options.h"
 #include "apps/viewer/action.h"
+#include "apps/viewer/balloon/balloon.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
@@ -76,6 +77,7 @@ class Viewer {
   void travel(const std::optional<Camera>& to, const char* nowhere);
   void pass_keyboard();
   void handle_events();
+  void click(glm::dvec2 at_px);
   void follow_panels();
   [[nodiscard]] Part* front_panel() const;
   [[nodiscard]] bool work() const;
@@ -86,6 +88,7 @@ class Viewer {
   void draw_frame(Viewport framebuffer);
   void draw_panels(Viewport framebuffer);
   void draw_over_panels(const View& view, float foot);
+  void draw_balloon(const View& view, float foot);
   [[nodiscard]] float draw_texts(const PanelStatus& status);
   void draw_legend(float foot, bool before_panels) const;
   void cover_panels(Viewport framebuffer);
@@ -101,6 +104,7 @@ class Viewer {
   Globe& globe_;
   ViewerOptions options_;
   bool said_memory_ = false;  ///< the user knows that the driver gives less than --memory
+  std::string said_letters_;  ///< last message about letters without a font
   Ui ui_;
   Navigator navigator_;
   Input input_;
@@ -118,6 +122,7 @@ class Viewer {
   OpenDialog open_{context_, [this](std::filesystem::path file) { layers_.open(std::move(file)); }};
   ViewModes modes_;
   Measure measure_{context_};
+  Balloon balloon_{context_, [this](LayerId layer) { return layers_.shown_objects(layer); }};
   Cutting cutting_;
   PlaceMenu menu_{context_,
                   actions(),
@@ -129,8 +134,8 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 11> parts_{&help_,   &menu_,  &pictures_, &search_,  &open_, &bookmarks_,
-                                     &layers_, &modes_, &measure_,  &cutting_, &map_};
+  const std::array<Part*, 12> parts_{&help_,    &menu_,   &pictures_, &search_,  &open_,    &bookmarks_,
+                                     &balloon_, &layers_, &modes_,    &measure_, &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

@@ -24,6 +24,7 @@ struct ObjectChange {
   std::optional<bool> visible = {};       ///< false: neither drawn nor picked
   std::optional<bool> selected = {};      ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
   std::optional<ObjectColor> color = {};  ///< colour of points (tint of icons), lines, labels and strokes
+  std::optional<ObjectColor> label = {};  ///< colour of labels, in place of `color`
   std::optional<ObjectColor> fill = {};   ///< fill colour of areas
   std::optional<float> size_px = {};      ///< size of markers, width of lines and strokes; positive
   std::optional<Angle> heading = {};      ///< heading of models and icons

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 
 #include "geo/coordinates.h"
 #include "objects/object_pick.h"
@@ -45,6 +46,9 @@ struct FrameStats {
   /// Squares of the ground in view whose lines and areas are not drawn, because their pictures have no room: too small
   /// a budget for the coarsest pictures.
   int ground_left_out = 0;
+  /// Letters of labels that neither the labels' font nor a font of the system has, so far, in ascending order. They are
+  /// drawn as replacement marks.
+  std::u32string without_font = {};
   std::size_t height_bytes = 0;  ///< elevation tiles
   std::size_t patches_held = 0;  ///< patches kept in memory, drawn or not
   std::size_t tiles_known = 0;   ///< tiles of imagery with a remembered state

@@ -239,6 +239,7 @@ void GlobeView::Impl::draw_picture(unsigned framebuffer, const FrameInput& input
   stats.draw_calls = counts->draw_calls;
   stats.gpu_memory_refused = stats.gpu_memory_refused || counts->objects_left_out;
   stats.triangles = counts->triangles;
+  stats.without_font = globe->renderer->without_font();
 }
 
 FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px, Draw when) {

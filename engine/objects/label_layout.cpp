@@ -1,35 +1,16 @@
 #include "objects/label_layout.h"
 
 #include <algorithm>
-#include <bit>
 #include <glm/geometric.hpp>
+
+#include "base/code_points.h"
 
 namespace terrella {
 namespace {
 
 constexpr int kCell_px = 64;
-constexpr char32_t kNotACharacter = 0xFFFD;
 
 }  // namespace
-
-std::u32string code_points(std::string_view utf8) {
-  std::u32string points;
-  for (std::size_t k = 0; k < utf8.size();) {
-    const auto first = static_cast<unsigned char>(utf8[k]);
-    const auto length = static_cast<std::size_t>(std::countl_one(first));
-    char32_t point = length == 0 ? first : first & (0x7FU >> length);
-    std::size_t read = 1;
-    for (; read < length && k + read < utf8.size(); ++read) {
-      const auto next = static_cast<unsigned char>(utf8[k + read]);
-      if ((next & 0xC0U) != 0x80U) break;
-      point = point << 6U | (next & 0x3FU);
-    }
-    const bool whole = length == 0 || (length >= 2 && length <= 4 && read == length);
-    points.push_back(whole ? point : kNotACharacter);
-    k += whole ? read : 1;
-  }
-  return points;
-}
 
 std::u32string label_text(std::string_view utf8) {
   std::u32string text = code_points(utf8);
@@ -87,6 +68,10 @@ bool is_behind(const glm::dvec3& point_m, const glm::dvec3& eye_m, const glm::dv
   const double nearest = length2 > 0.0 ? std::clamp(-glm::dot(eye, way) / length2, 0.0, 1.0) : 0.0;
   const glm::dvec3 at = eye + nearest * way;
   return glm::dot(at, at) < 1.0;
+}
+
+bool is_beside_planet(const View& view, const Ellipsoid& planet, const glm::dvec2& pixel_px) {
+  return !planet.intersect_m(view.eye, pixel_ray(view, pixel_px));
 }
 
 }  // namespace terrella

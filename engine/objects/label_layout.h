@@ -10,9 +10,6 @@
 
 namespace terrella {
 
-/// Returns the code points of a UTF-8 text, with U+FFFD for each byte that does not begin a code point. thread: any
-[[nodiscard]] std::u32string code_points(std::string_view utf8);
-
 /// Characters of a label; a longer text ends in "…".
 inline constexpr std::size_t kMostLabelCharacters = 96;
 /// Returns the characters that a label shows of its text. thread: any
@@ -47,5 +44,8 @@ class LabelRoom {
 /// True if an ellipsoid around the planet's centre hides or contains a point. The half axes are in metres; half axes of
 /// 0 hide nothing. thread: any
 [[nodiscard]] bool is_behind(const glm::dvec3& point_m, const glm::dvec3& eye_m, const glm::dvec3& half_axes_m);
+
+/// True if a pixel shows the sky beside a planet, whose relief does not count. thread: any
+[[nodiscard]] bool is_beside_planet(const View& view, const Ellipsoid& planet, const glm::dvec2& pixel_px);
 
 }  // namespace terrella

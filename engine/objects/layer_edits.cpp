@@ -93,7 +93,7 @@ void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
     meshes_[part.index].object.heading = change.heading.value_or(meshes_[part.index].object.heading);
   } else {
     KeptLabel& label = labels_[part.index];
-    label.object.color = change.color.value_or(label.object.color);
+    label.object.color = change.label.value_or(change.color.value_or(label.object.color));
     label.object.size_px = change.size_px.value_or(label.object.size_px);
   }
 }

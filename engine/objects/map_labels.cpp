@@ -99,6 +99,9 @@ std::vector<ShownName> MapLabels::place(const View& view, const Ground& ground, 
       const dvec2 low = candidate.px + text, dot(side == Side::middle ? 0.0 : page.scale * kDot_px);
       const LabelBox box{glm::min(glm::vec2(low) - margin, glm::vec2(candidate.px - dot)),
                          glm::max(glm::vec2(low + size) + margin, glm::vec2(candidate.px + dot))};
+      const dvec2 begin = low + dvec2(0.0, 0.5 * size.y);
+      if (is_beside_planet(view, ellipsoid_, begin) || is_beside_planet(view, ellipsoid_, begin + dvec2(size.x, 0.0)))
+        continue;
       if (!room.take(box)) continue;
       shown.push_back({candidate.name, candidate.px, text});
       now[candidate.name] = side;

@@ -46,7 +46,8 @@ class MapLabels {
   MapLabels(std::vector<MapName> names, const Ellipsoid& ellipsoid);
 
   [[nodiscard]] const std::vector<MapName>& names() const { return names_; }
-  /// Returns the names of a picture, the highest rank first. A name faces the eye, and lies wholly in the picture.
+  /// Returns the names of a picture, the highest rank first. A name faces the eye, and lies wholly in the picture and
+  /// over the planet.
   [[nodiscard]] std::vector<ShownName> place(const View& view, const Ground& ground, const LabelPage& page);
   /// Returns the pixel of a name's place on the ground; nothing if it is behind the eye.
   [[nodiscard]] std::optional<glm::dvec2> place_px(std::size_t name, const View& view, const Ground& ground) const;

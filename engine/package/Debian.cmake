@@ -30,9 +30,9 @@ Cuts pictures into tiles, streams tiles from servers and fills caches with them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrella-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libexif-dev, libfmt-dev, libfreetype-dev, libgeographiclib-dev, libglm-dev, libglu1-mesa-dev, "
-  "libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, libwebp-dev, "
-  "nlohmann-json3-dev, pkg-config, zlib1g-dev")
+  "libcurl4-openssl-dev, libepoxy-dev, liberfa-dev, libexif-dev, libfmt-dev, libfontconfig-dev, libfreetype-dev, libfribidi-dev, "
+  "libgeographiclib-dev, libglm-dev, libglu1-mesa-dev, libharfbuzz-dev, libjpeg62-turbo-dev, libpng-dev, libproj-dev, libpugixml-dev, "
+  "libsqlite3-dev, libtiff-dev, libtinygltf-dev, libturbojpeg0-dev, libwebp-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS terrella)
 get_property(python GLOBAL PROPERTY TERRELLA_PYTHON_VERSIONS)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrella)

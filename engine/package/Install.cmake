@@ -19,7 +19,7 @@ if(BUILD_SHARED_LIBS)
 else()
   terrella_component(streaming terrella_base terrella_geo terrella_codecs terrella_tiles terrella_streaming)
   terrella_component(cut terrella_cut)
-  terrella_component(globe terrella_view terrella_surface terrella_sky terrella_objects terrella_shaders terrella_render terrella_globe terrella)
+  terrella_component(globe terrella_text terrella_view terrella_surface terrella_sky terrella_objects terrella_shaders terrella_render terrella_globe terrella)
 
   # cmake --install --strip and cpack: of static libraries CMake strips nothing by itself.
   install(CODE "
@@ -48,9 +48,10 @@ install(FILES ${PROJECT_BINARY_DIR}/TerrellaConfig.cmake ${PROJECT_BINARY_DIR}/T
 
 file(RELATIVE_PATH pc_prefix /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
 set(pc_archives "-lterrella_globe -lterrella_render -lterrella_shaders -lterrella_objects -lterrella_sky -lterrella_surface \
--lterrella_view -lterrella_cut -lterrella_streaming -lterrella_tiles -lterrella_codecs -lterrella_geo -lterrella_base -lGeographicLib \
--ldl -lGLU -pthread")
-set(pc_needs "fmt libcurl libpng sqlite3 libtiff-4 proj tinygltf pugixml libturbojpeg libjpeg libwebp libwebpdemux libexif zlib erfa freetype2")
+-lterrella_view -lterrella_cut -lterrella_streaming -lterrella_tiles -lterrella_codecs -lterrella_text -lterrella_geo -lterrella_base \
+-lGeographicLib -ldl -lGLU -pthread")
+set(pc_needs "fmt libcurl libpng sqlite3 libtiff-4 proj tinygltf pugixml libturbojpeg libjpeg libwebp libwebpdemux libexif zlib erfa freetype2 \
+harfbuzz fribidi fontconfig")
 if(BUILD_SHARED_LIBS)
   set(pc_requires "glm epoxy")
   set(pc_libs -lterrella)

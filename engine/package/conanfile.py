@@ -18,9 +18,10 @@ class Terrella(ConanFile):
     options = {"shared": [True, False], "fPIC": [True, False]}
     default_options = {"shared": False, "fPIC": True}
     requires = (
-        "freetype/2.13.2", "fmt/10.2.1", "gdal/3.8.3", "geographiclib/2.3", "glm/0.9.9.8", "libcurl/8.6.0",
-        "libepoxy/1.5.10", "libexif/0.6.24", "libjpeg-turbo/3.0.2", "libpng/1.6.43", "libtiff/4.6.0", "libwebp/1.3.2",
-        "nlohmann_json/3.11.3", "proj/9.3.1", "pugixml/1.14", "sqlite3/3.45.2", "tinygltf/2.8.19", "zlib/1.3.1")
+        "fmt/10.2.1", "fontconfig/2.15.0", "freetype/2.13.2", "fribidi/1.0.13", "gdal/3.8.3", "geographiclib/2.3",
+        "glm/0.9.9.8", "harfbuzz/8.3.0", "libcurl/8.6.0", "libepoxy/1.5.10", "libexif/0.6.24", "libjpeg-turbo/3.0.2",
+        "libpng/1.6.43", "libtiff/4.6.0", "libwebp/1.3.2", "nlohmann_json/3.11.3", "proj/9.3.1", "pugixml/1.14",
+        "sqlite3/3.45.2", "tinygltf/2.8.19", "zlib/1.3.1")
 
     def system_requirements(self):
         # Conan's own collection has neither.

@@ -16,6 +16,7 @@ set(TERRELLA_PUBLIC_HEADERS
   streaming/cut.h
   engine/codecs/image.h
   engine/codecs/numbers.h
+  streaming/objects/feature_style.h
   streaming/objects/geojson_objects.h
   streaming/objects/vector_objects.h
   streaming/preload/preloader.h

@@ -1,7 +1,7 @@
 # libterrella.so: all libraries that applications link. It exports what the public headers declare and nothing else.
 find_package(glm REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
-set(parts base geo codecs tiles view surface sky objects shaders render globe streaming cut)
+set(parts base geo text codecs tiles view surface sky objects shaders render globe streaming cut)
 list(TRANSFORM parts PREPEND terrella_)
 list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
 add_library(terrella_shared SHARED ${objects})

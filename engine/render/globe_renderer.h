@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -126,6 +127,9 @@ class GlobeRenderer {
   /// Sets the object layers to draw, the lowest first; they must stay until the next call. Makes the programs that the
   /// layers need.
   Status set_objects(std::vector<DrawnLayer> layers);
+
+  /// Letters of labels that no font has, so far, in ascending order.
+  [[nodiscard]] std::u32string without_font() const { return objects_ ? objects_->without_font() : std::u32string(); }
 
   /// Longest side of a picture that the driver draws, pixels.
   [[nodiscard]] int longest_side_px() const { return longest_side_px_; }

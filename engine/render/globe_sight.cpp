@@ -70,6 +70,7 @@ double GlobeRenderer::hiding_radius_m(const Pass& pass) const {
 // Labels hidden by the surface or the inner sphere take no room. An unlit picture has no labels.
 LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
   LabelSight sight;
+  sight.limb = &ellipsoid_;
   sight.shown = pass.input.lit;
   const SurfaceLook& surface = pass.input.surface;
   if (under_ground(pass)) {

@@ -8,6 +8,7 @@
 
 #include "streaming/objects/feature_objects.h"
 #include "streaming/objects/quake_catalogue.h"
+#include "streaming/objects/style_rules.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {
@@ -39,8 +40,9 @@ void FeatureTaker::take(const json& feature, std::size_t index) {
   if (geometry == feature.end()) return complain("it has no \"geometry\"");
   if (geometry->is_null()) return;
   const auto properties = feature.find("properties");
-  ObjectStyle style = read_object_style(properties == feature.end() ? json() : *properties, complain);
-  if (quakes_) style_quake(feature, style);
+  const json fields = properties == feature.end() ? json() : *properties;
+  ObjectStyle style = read_object_style(style_ != nullptr ? applied(*style_, fields) : fields, complain);
+  if (quakes_ && style_ == nullptr) style_quake(feature, style);
   const ObjectId id{static_cast<std::uint64_t>(first_) + index};
   file_.next = ObjectId{static_cast<std::uint64_t>(id) + 1};
   name_feature(style, id, properties == feature.end() ? json::object() : *properties);

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "streaming/objects/feature_style.h"
 #include "streaming/objects/geojson_objects.h"
 #include "streaming/objects/icon_shelf.h"
 #include "streaming/objects/model_shelf.h"
@@ -21,6 +22,8 @@ class FeatureTaker {
   void take(const nlohmann::json& feature, std::size_t index);
   /// Adds a complaint, or counts it if there are many.
   void complain_of(const std::string& what);
+  /// Draws further features in a style, which must outlive the taker; null: by their properties alone.
+  void set_style(const FeatureStyle* style) { style_ = style; }
   /// Makes further features earthquakes of a catalogue.
   void expect_quakes() { quakes_ = true; }
 
@@ -32,6 +35,7 @@ class FeatureTaker {
   IconShelf icons_;
   ObjectId first_;
   ObjectFile& file_;
+  const FeatureStyle* style_ = nullptr;
   bool quakes_ = false;
 };
 

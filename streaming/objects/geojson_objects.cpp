@@ -19,8 +19,11 @@ using nlohmann::json;
 /// Takes each feature out of the document as soon as it is complete. No more than one feature is held as JSON.
 class DocumentTaker {
  public:
-  DocumentTaker(const std::string& where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file)
-      : features_(where, folder, first, file), file_(file) {}
+  DocumentTaker(const std::string& where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file,
+                const FeatureStyle* style)
+      : features_(where, folder, first, file), file_(file) {
+    features_.set_style(style);
+  }
 
   /// For JsonBuilder: keeps everything except features.
   bool keep(std::size_t depth, const std::string& member, const json& value) {
@@ -65,9 +68,10 @@ Status take_rest(const json& document, DocumentTaker& taker) {
 }  // namespace
 
 Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
-                                         const std::filesystem::path& folder, ObjectId first) {
+                                         const std::filesystem::path& folder, ObjectId first,
+                                         const FeatureStyle* style) {
   ObjectFile file;
-  DocumentTaker taker(where, folder, first, file);
+  DocumentTaker taker(where, folder, first, file, style);
   const auto broken = [&](const std::string& what) -> Result<ObjectFile> {
     if (file.scene.empty()) return Error{fmt::format("{}: {}", where, what)};
     taker.complain_of(fmt::format("{}; the {} features before are drawn", what, taker.count()));
@@ -81,7 +85,7 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
   return file;
 }
 
-Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first) {
+Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
   std::error_code problem;
   const auto bytes = std::filesystem::file_size(path, problem);
   if (problem) return Error{fmt::format("{}: {}", path.string(), problem.message())};
@@ -91,7 +95,7 @@ Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, Objec
   }
   std::ifstream text(path, std::ios::binary);
   if (!text) return Error{fmt::format("{}: it cannot be opened", path.string())};
-  return parse_geojson_objects(text, path.string(), path.has_parent_path() ? path.parent_path() : ".", first);
+  return parse_geojson_objects(text, path.string(), path.has_parent_path() ? path.parent_path() : ".", first, style);
 }
 
 }  // namespace terrella

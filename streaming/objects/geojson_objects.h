@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "geo/objects.h"
+#include "streaming/objects/feature_style.h"
 
 namespace terrella {
 
@@ -38,11 +39,14 @@ struct ObjectFile {
 ///
 /// A faulty geometry is skipped with a complaint. A faulty property counts as missing, with a complaint. If the text
 /// stops being valid JSON, the features before that point stay. Fails if nothing was read at all. `where` (a path)
-/// begins each message. Models and icons are read from `folder`, or not at all if it is empty. thread: any
+/// begins each message. A style takes the place of what the properties say. Models and icons are read from `folder`, or
+/// not at all if it is empty. thread: any
 [[nodiscard]] Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
                                                        const std::filesystem::path& folder = {},
-                                                       ObjectId first = ObjectId{1});
+                                                       ObjectId first = ObjectId{1},
+                                                       const FeatureStyle* style = nullptr);
 /// Reads objects from a file.
-[[nodiscard]] Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1});
+[[nodiscard]] Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
+                                                      const FeatureStyle* style = nullptr);
 
 }  // namespace terrella

@@ -16,6 +16,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kLeastMarker_px = 1, kMostMarker_px = 256;
+
 /// Reads the properties of one feature. A faulty property causes a complaint and counts as missing.
 class StyleReader {
  public:
@@ -84,7 +86,9 @@ class StyleReader {
     for (const auto& [name, size] : kSizes_px) {
       if (*value == name) return size;
     }
-    complain_("\"marker-size\" must be small, medium or large");
+    if (value->is_number() && *value >= kLeastMarker_px && *value <= kMostMarker_px) return value->get<float>();
+    complain_(
+        fmt::format("\"marker-size\" must be small, medium, large, or {} to {} px", kLeastMarker_px, kMostMarker_px));
     return std::nullopt;
   }
 

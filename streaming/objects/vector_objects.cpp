@@ -154,12 +154,13 @@ class LayerReader {
 
 bool is_vector_file(const std::filesystem::path& path) { return vector_driver_of(path) != nullptr; }
 
-Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first) {
+Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
   const auto opened = open_vector_file(path);
   if (!opened) return opened.error();
   const GdalSettings settings(vector_settings());
   ObjectFile file;
   FeatureTaker taker(path.string(), path.has_parent_path() ? path.parent_path() : ".", first, file);
+  taker.set_style(style);
   LayerReader(*opened, taker).read_all();
   if (!file.scene.empty()) return file;
   const std::string why =
@@ -167,8 +168,8 @@ Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, Object
   return Error{why};
 }
 
-Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first) {
-  return is_vector_file(path) ? read_vector_objects(path, first) : read_geojson_objects(path, first);
+Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
+  return is_vector_file(path) ? read_vector_objects(path, first, style) : read_geojson_objects(path, first, style);
 }
 
 }  // namespace terrella

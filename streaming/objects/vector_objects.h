@@ -23,9 +23,12 @@ inline constexpr std::size_t kMaxVectorUnpackedBytes = 256UL << 20;
 /// clampToGround as its default. Colours and widths of the file's styles count like those of simplestyle.
 ///
 /// Faulty features are skipped with a complaint. Fails if the file is too long, or no vector file. Blocks. thread: any
-[[nodiscard]] Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1});
+[[nodiscard]] Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
+                                                     const FeatureStyle* style = nullptr);
 
-/// Reads a vector file or, for any other name, a GeoJSON file. Blocks. thread: any
-[[nodiscard]] Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1});
+/// Reads a vector file or, for any other name, a GeoJSON file; with a style, in place of what the properties of its
+/// features say. Blocks. thread: any
+[[nodiscard]] Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
+                                              const FeatureStyle* style = nullptr);
 
 }  // namespace terrella

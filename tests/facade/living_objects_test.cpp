@@ -197,13 +197,49 @@ TEST_F(LivingObjects, APickReturnsTheFeature) {
   EXPECT_EQ(pick(at(0, 0)).object->of.id, ObjectId{2});
 }
 
+std::vector<std::byte> label_font() {
+  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
+  std::vector<std::byte> bytes;
+  for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte) bytes.push_back(std::byte(*byte));
+  return bytes;
+}
+
+// Towards the middle of the disc the ground is nearer to the eye than the label's place: it must not hide the text.
+TEST_F(LivingObjects, ALabelIsWholeNearTheLimb) {
+  GlobeOptions options = unlit_options();
+  options.unlit = false;  // without light no labels are drawn
+  options.label_font = label_font();
+  globe_ = *Globe::create(options);
+  globe_->set_camera(camera_at(0, 0, 1.4e7));
+  constexpr Viewport kLarge{480, 360};
+  const auto ink = [&](double lat_deg, double lon_deg) {
+    const LayerId layer = *globe_->add_objects(
+        {.labels = {{.text = "Reykholmavik", .place = at(lat_deg, lon_deg), .color = {255, 0, 255}}}});
+    settle(*globe_, kLarge);
+    const Picture seen = picture();
+    EXPECT_TRUE(globe_->remove(layer));
+    int pixels = 0;
+    for (int y = 0; y < kLarge.height_px; ++y) {
+      for (int x = 0; x < kLarge.width_px; ++x) {
+        const Color color = seen.at(x, y);
+        pixels += color[0] > 180 && color[2] > 180 && color[1] < 90 ? 1 : 0;
+      }
+    }
+    return pixels;
+  };
+  const int whole = ink(0, 0);
+  EXPECT_GT(whole, 150);
+  for (const auto& [lat, lon] : {std::pair{0.0, -68.0}, {0.0, 68.0}, {66.0, 0.0}, {-66.0, 0.0}, {48.0, -48.0}}) {
+    EXPECT_NEAR(ink(lat, lon), whole, 0.08 * whole)
+        << "more than the edges of letters on other ground: " << lat << ", " << lon;
+  }
+}
+
 // A label is drawn to the right of its marker. It moves with the marker, and is picked by its text.
 TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
   GlobeOptions options = unlit_options();
   options.unlit = false;  // without light no labels are drawn
-  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
-  const std::string font{std::istreambuf_iterator<char>(file), {}};
-  for (const char byte : font) options.label_font.push_back(static_cast<std::byte>(byte));
+  options.label_font = label_font();
   globe_ = *Globe::create(options);
   globe_->set_camera(camera_at(0, 0, 5.0e6));
   const LayerId layer =

@@ -311,7 +311,7 @@ TEST(GeojsonObjects, EachSimplestyleValueThatIsWrongIsNamedAndItsDefaultDrawn) {
 TEST(GeojsonObjects, AStyleThatIsWrongIsComplainedOfAndTheObjectDrawnWithoutIt) {
   const ObjectFile file = good(collection(feature(
       kPoint,
-      R"({"name":"Alps","marker-color":"zzz","marker-size":7,"radius_m":-1,"through_surface":"yes","stroke-width":1e9})")));
+      R"({"name":"Alps","marker-color":"zzz","marker-size":0,"radius_m":-1,"through_surface":"yes","stroke-width":1e9})")));
   EXPECT_EQ(file.scene.points.size(), 1U);
   EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0x7e, 0x7e, 0x7e}));
   ASSERT_EQ(file.complaints.size(), 5U);

@@ -69,6 +69,8 @@ class Documents(ModuleTest):
         blocks = re.findall(r"```python\n(.*?)```", (SOURCE / "apps/python/README.md").read_text(), re.DOTALL)
         self.assertTrue(blocks)
         subprocess.run(["convert", "-size", "256x128", "xc:gray", self.folder / "moon.tif"], check=True)
+        districts = {"type": "FeatureCollection", "features": [mark(8, lat) for lat in (46, 47, 48)]}
+        (self.folder / "districts.geojson").write_text(json.dumps(districts))
         handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=NATURAL_EARTH)
         with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, contextlib.chdir(self.folder):
             threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -202,6 +204,36 @@ class Globes(ModuleTest):
             self.assertTrue((globe.render() == first).all())
             with self.assertRaises(terrella.Error):
                 globe.move(layer, 2, 10, 20)
+
+    def test_another_style_is_what_reading_in_it_draws(self):
+        def square(west, people):
+            ring = [[west, -9], [west + 9, -9], [west + 9, 9], [west, 9], [west, -9]]
+            return {"type": "Feature", "properties": {"people": people},
+                    "geometry": {"type": "Polygon", "coordinates": [ring]}}
+
+        districts = {"type": "FeatureCollection", "features": [square(-10, 1), square(1, 3)]}
+
+        def style(field):
+            return {"fill": ["step", ["get", field], "#ff0000", 2, "#00ff00"], "fill-opacity": 1, "stroke-width": 0}
+
+        with terrella.Globe(NATURAL_EARTH, camera=(0, 0, 5e6), size=SIZE, unlit=True) as globe:
+            layer = globe.add_objects(districts, style=style("people"))
+            red, green = ([round(v) for v in globe.project(0, lon)] for lon in (-5, 5))
+            by_people = globe.render()
+            self.assertEqual(tuple(by_people[red[1], red[0]]), (255, 0, 0))
+            self.assertEqual(tuple(by_people[green[1], green[0]]), (0, 255, 0))
+            globe.set_style(layer, style("value"), numpy.array([5.0, 0.0]))
+            by_value = globe.render()
+            self.assertEqual(tuple(by_value[red[1], red[0]]), (0, 255, 0))
+            self.assertEqual(tuple(by_value[green[1], green[0]]), (255, 0, 0))
+            globe.set_style(layer, style("people"))
+            self.assertTrue((globe.render() == by_people).all())
+            with self.assertRaisesRegex(ValueError, "2 features"):
+                globe.set_style(layer, style("value"), [1.0])
+            with self.assertRaisesRegex(terrella.Error, "unknown property"):
+                globe.set_style(layer, {"colour": "#fff"})
+            with self.assertRaisesRegex(ValueError, "add_objects"):
+                globe.set_style(layer + 99, style("people"))
 
     def test_a_line_grows_to_what_a_whole_one_draws(self):
         def line(*longitudes):

@@ -76,6 +76,24 @@ TEST_F(LabelPassTest, StandsRightOfItsMarkerWithAHalo) {
   }
 }
 
+TEST_F(LabelPassTest, StaysWithinThePlanetsDisc) {
+  use(DepthMode::reversed, {400, 400});
+  label_sight_.limb = &ellipsoid();
+  const View view = this->view(over_origin(2.0e7));
+  const auto text_at = [&](const char* text, double lon_deg, double height_m = 0.0) {
+    LabelObject there = label(text, 0.0, lon_deg);
+    there.place.height_m = height_m;
+    return ink(draw({.labels = {there}}, view));
+  };
+  const double middle = 0.5 * 400, limb = project(view, ellipsoid().to_ecef(at(0.0, 75.0, 0.0)))->x;
+  EXPECT_GT(text_at("Island", 0.0).left, middle) << "right of its place, as long as there is ground";
+  EXPECT_GT(text_at("Island", -74.0).left, 400.0 - limb);
+  const Box at_limb = text_at("Island", 74.0);
+  EXPECT_LT(at_limb.right, limb) << "over the limb";
+  EXPECT_GT(at_limb.left, middle);
+  EXPECT_GT(text_at("Sat", 60.0, 2.0e6).left, limb) << "of a place in the sky";
+}
+
 TEST_F(LabelPassTest, KeepsClearOfASphereOfItsRadius) {
   LabelObject beside = label("I", 0.0, 0.0);
   beside.radius_m = 50.0e3;

@@ -98,6 +98,29 @@ TEST(MapLabels, NoNameCoversAnotherOrAPanel) {
   }
 }
 
+// The truth is apart from the code: from this height the disc is a circle whose radius follows from the horizon's
+// angle.
+TEST(MapLabels, NamesStayWithinThePlanetsDisc) {
+  std::vector<MapName> names;
+  for (int lon = -70; lon <= 70; lon += 10) {
+    for (int lat = -60; lat <= 60; lat += 20) names.push_back(name("a long name", lat, lon, 1.0, lat == 0));
+  }
+  MapLabels labels(std::move(names), earth().ellipsoid);
+  const double height_m = 2.0e7, radius_m = earth().ellipsoid.a_m(), away_m = radius_m + height_m;
+  const View view = seen_from(0.0, 0.0, height_m);
+  const double disc_px = view.pixels_per_radian() * radius_m / std::sqrt(away_m * away_m - radius_m * radius_m);
+  const auto shown = labels.place(view, Ground(earth().ellipsoid), page());
+  EXPECT_GT(shown.size(), 10U);
+  for (const ShownName& one : shown) {
+    const LabelBox box = box_of(labels, one);
+    for (const float x : {box.low_px.x, box.high_px.x}) {
+      const double right = double(x) - 0.5 * kPicture.width_px;
+      const double up = 0.5 * double(box.low_px.y + box.high_px.y) - 0.5 * kPicture.height_px;
+      EXPECT_LT(std::hypot(right, up), disc_px + 1.0);
+    }
+  }
+}
+
 TEST(MapLabels, TheFarSideHasNoNames) {
   MapLabels labels({name("near", 0.0, 0.0, 1.0), name("far", 0.0, 180.0, 2.0), name("limb", 0.0, 66.0, 3.0)},
                    earth().ellipsoid);

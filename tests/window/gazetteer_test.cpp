@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string>
 
 #include "support/scratch_folder.h"
 
@@ -38,6 +40,35 @@ TEST(Gazetteer, FindsByBeginningsFirstTheLargestFirst) {
   EXPECT_GE(by_s[0]->people, by_s[1]->people);
   EXPECT_TRUE(places->find("no such place", 8).empty());
   EXPECT_TRUE(places->find("   ", 8).empty());
+}
+
+TEST(Gazetteer, AnExactNameComesBeforeLongerOnesWhateverTheirSize) {
+  const auto places = Gazetteer::load(TERRELLA_PLACES);
+  ASSERT_TRUE(places);
+  for (const char* name : {"Bern", "Lima", "Mexico"}) {
+    const auto found = places->find(name, 24323);
+    ASSERT_FALSE(found.empty()) << name;
+    const auto is_exact = [&](const NamedPlace* place) { return place->folded.size() == std::string(name).size(); };
+    EXPECT_TRUE(std::ranges::is_partitioned(found, is_exact)) << name;
+  }
+  EXPECT_EQ(places->find("mexico", 1)[0]->people, 43694.0) << "a town of this name before Mexico City";
+}
+
+TEST(Gazetteer, CountriesOfTheMapAreFound) {
+  auto places = Gazetteer::load(TERRELLA_PLACES);
+  ASSERT_TRUE(places);
+  const std::size_t cities = places->size();
+  ASSERT_TRUE(places->add_countries(TERRELLA_MAP));
+  EXPECT_GT(places->size(), cities + 200U);
+  for (const char* name : {"india", "mexico", "Georgia"}) {
+    const auto found = places->find(name, 3);
+    ASSERT_FALSE(found.empty()) << name;
+    EXPECT_GT(found[0]->area_km2, 0.0) << name << ": a city of this name, or a longer name, is first";
+  }
+  EXPECT_EQ(places->find("sant", 1)[0]->name, "Santiago") << "a dwarf of a country before a large city";
+  const auto missing = places->add_countries("nowhere.json");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("nowhere.json"), std::string::npos);
 }
 
 TEST(Gazetteer, WhatIsNoPlaceIsLeftOutAndAFileOfNoneIsRefused) {

@@ -1,5 +1,6 @@
 """Walks the table of actions in the user's page: each by keyboard and by mouse, each twice in a row."""
 
+import json
 import os
 import re
 import time
@@ -17,6 +18,7 @@ PLACE_ITEM, FIRST_ACTION, ACTION_STEP = 34, 162, 19  # pixels under the menu's u
 COLUMNS = (262, 470)  # pixels from the left, in the actions of the menu
 ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
+OBJECT = {"type": "Feature", "properties": {"note": "here"}, "geometry": {"type": "Point", "coordinates": [10, 20]}}
 RESET = "reset the view: settings as at the start, whole globe"
 ROW_BUTTONS = 26  # pixels over the lower edge of the row of a measurement: over the texts of its buttons
 
@@ -33,7 +35,8 @@ class Walk(WindowTest):
 
     def setUp(self):
         super().setUp()
-        self.viewer = self.start("--camera", "20,10,12000000")
+        (self.folder / "object.json").write_text(json.dumps(OBJECT), encoding="ascii")
+        self.viewer = self.start("--camera", "20,10,12000000", "--objects", "object.json")
         self.menu_rows = [what for what, _, mouse in table()
                           if mouse.startswith("menu") and what != "save the view as a bookmark"]
 
@@ -143,6 +146,12 @@ class Walk(WindowTest):
         self.key("shift+Left")
         self.viewer.next_camera()
 
+    def at_the_object(self):
+        self.away()
+        self.key("1")
+        self.viewer.next_camera()
+        time.sleep(0.5)  # no double click
+
     def tilted(self):
         self.key("shift+Up", "shift+Up", "shift+Up")
         self.viewer.next_camera()
@@ -192,6 +201,8 @@ class Walk(WindowTest):
             "forward to the next view": (self.moved, lambda: key("alt+Right"), lambda: icon("forward"), self.back, none),
             "menu of the place: copy, measure, centre, fly there": (
                 self.shown, lambda: key("Menu"), self.open_menu, none, self.close),
+            "object in the middle of the view: show its fields": (
+                self.shown, lambda: key("o"), lambda: self.viewer.click(*MIDDLE), self.at_the_object, self.close),
             "fly to a place": (self.moved, lambda: key("Menu", *["Down"] * 5, "Return"),
                                lambda: self.viewer.double_click(300, 200), none, none),
             RESET: (self.moved, lambda: key("r"), lambda: menu(RESET), self.away, none),

@@ -113,12 +113,20 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
           "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
           "viewer's shoulder)")
       ->type_name("UTC");
+  CLI::Option* objects =
+      command
+          .add_option(
+              "--objects", options.objects,
+              "Draw points, lines and areas, over and under the ground: GeoJSON, KML, GPX, a shapefile, FlatGeobuf, "
+              "GeoPackage or CSV")
+          ->type_name("FILE");
   command
       .add_option(
-          "--objects", options.objects,
-          "Draw points, lines and areas, over and under the ground: GeoJSON, KML, GPX, a shapefile, FlatGeobuf, "
-          "GeoPackage or CSV")
-      ->type_name("FILE");
+          "--object-style", options.object_style,
+          "Draw --objects in the style of this JSON file: colours, widths, sizes, texts and heights by the fields "
+          "of features")
+      ->type_name("FILE.json")
+      ->needs(objects);
 }
 
 void add_map_options(CLI::App& command, SceneOptions& options) {
@@ -227,6 +235,17 @@ std::string memory_note(std::size_t memory_mb, const FrameStats& stats) {
   return fmt::format(
       "--memory {}: the driver gives {} MB for tiles{}", memory_mb, granted_mb,
       stats.gpu_memory_refused ? ", and has no memory for more" : ", as many as its array textures hold");
+}
+
+std::string font_note(const FrameStats& stats) {
+  if (stats.without_font.empty()) return {};
+  constexpr std::size_t kMostTold = 8;
+  std::string letters;
+  for (const char32_t letter : stats.without_font.substr(0, kMostTold)) {
+    letters += fmt::format("{}U+{:04X}", letters.empty() ? "" : ", ", static_cast<std::uint32_t>(letter));
+  }
+  return fmt::format("no font has the letters {}{} of labels: install one that has them, as fonts-noto does", letters,
+                     stats.without_font.size() > kMostTold ? " and more" : "");
 }
 
 void set_paper_texturing(Globe& globe, const SceneOptions& options) {

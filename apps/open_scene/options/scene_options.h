@@ -42,6 +42,7 @@ struct SceneOptions {
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;          ///< GeoJSON, or a vector file of GDAL's; empty: none
+  std::string object_style;     ///< JSON file of a style for the objects; empty: their own properties
   std::optional<bool> map;      ///< --map; absent: the command's default
   std::string places;           ///< GeoJSON file of names, for map and search; empty: the Earth's cities
   bool sky = true;              ///< stars, Sun, Moon and atmosphere
@@ -60,6 +61,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Says what --memory leaves out on the ground, or what the driver gives for tiles, if that is less than --memory asks
 /// for, or if it refused memory; else empty. thread: any
 [[nodiscard]] std::string memory_note(std::size_t memory_mb, const FrameStats& stats);
+/// Names the letters of labels that no font has, and a cure; empty if all have one. thread: any
+[[nodiscard]] std::string font_note(const FrameStats& stats);
 /// Sets --paper-a and --band, which GlobeOptions does not have. thread: main
 void set_paper_texturing(Globe& globe, const SceneOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/panels/readout.h"
 
@@ -30,6 +31,7 @@ BookmarkWish draw_edit(BookmarkEdit& edit) {
     wish.name = edit.name.data();
     edit.number = 0;
   }
+  want_letters(edit.name.data());
   if (ImGui::SmallButton("Up")) wish.ask = BookmarkAsk::raise;
   tip("Moves the bookmark up, to a lower number. Keys 1 to 9 fly to the first nine.");
   beside_if_room("Down");
@@ -45,9 +47,9 @@ BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit) 
   BookmarkWish wish{.number = number};
   const float edit_width = ImGui::CalcTextSize("Edit").x + 2.0F * ImGui::GetStyle().FramePadding.x;
   const float width = ImGui::GetContentRegionAvail().x - edit_width - ImGui::GetStyle().ItemSpacing.x;
-  const std::string text = fmt::format("{}   {}", number, shown_name(bookmark));
+  const std::string text = fmt::format("{}   {}###row", number, panel_text(shown_name(bookmark)));
   if (ImGui::Selectable(text.c_str(), false, 0, {width, 0.0F}) || entered()) wish.ask = BookmarkAsk::fly_to;
-  tip((number <= Bookmarks::kKeys ? fmt::format("{}: flies there.", number) : std::string("Flies there.")).c_str());
+  tip(number <= Bookmarks::kKeys ? fmt::format("{}: flies there.", number) : "Flies there.");
   ImGui::SameLine();
   if (ImGui::SmallButton("Edit")) {
     const bool open = edit.number == number;

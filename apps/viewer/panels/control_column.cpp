@@ -124,7 +124,7 @@ bool draw_button(const Action& action, Angle heading, ImVec2 size) {
   const bool clicked = ImGui::Button(fmt::format("##{}", int(action.icon)).c_str(), size);
   ImGui::PopButtonRepeat();
   draw_icon(action.icon, {at.x + 0.5F * size.x, at.y + 0.5F * size.y}, 0.5F * size.x, heading);
-  tip(fmt::format("{}: {}", action.keys, action.what).c_str());
+  tip(fmt::format("{}: {}", action.keys, action.what));
   return clicked;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/viewer/panels/number_panel.h"
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 
 namespace terrella {
@@ -56,9 +57,7 @@ void draw_facts(LayerRow& row) {
   if (!row.read_facts) return;
   if (!row.facts.valid()) row.facts = std::async(std::launch::async, row.read_facts).share();
   if (!row.has_facts() || row.facts.get().empty()) return;
-  ImGui::PushTextWrapPos(0.0F);
-  for (const std::string& line : row.facts.get()) ImGui::TextDisabled("%s", line.c_str());
-  ImGui::PopTextWrapPos();
+  for (const std::string& line : row.facts.get()) write_wrapped(line, true);
 }
 
 LayerAsk draw_buttons(const LayerRow& row) {
@@ -79,16 +78,13 @@ LayerAsk draw_buttons(const LayerRow& row) {
 }
 
 void draw_attribution(const LayerRow& row) {
-  if (row.attribution.empty()) return;
-  ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextDisabled("Source: %s", row.attribution.c_str());
-  ImGui::PopTextWrapPos();
+  if (!row.attribution.empty()) write_wrapped("Source: " + row.attribution, true);
 }
 
 void draw_problem(const LayerRow& row) {
   if (row.problem.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, kProblemInk);
-  ImGui::TextWrapped("Last failure: %s", row.problem.c_str());
+  write_wrapped("Last failure: " + row.problem);
   ImGui::PopStyleColor();
 }
 
@@ -96,8 +92,8 @@ LayerAsk draw_row(LayerRow& row) {
   ImGui::Checkbox("##shown", &row.look.shown);
   tip("Shows or hides the layer.");
   ImGui::SameLine();
-  const bool open = ImGui::TreeNodeEx(row.name.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth);
-  if (!open) tip((row.name + " (" + word_of(row.kind) + "): click for options.").c_str());
+  const bool open = ImGui::TreeNodeEx("row", ImGuiTreeNodeFlags_SpanAvailWidth, "%s", panel_text(row.name).c_str());
+  if (!open) tip(row.name + " (" + word_of(row.kind) + "): click for options.");
   draw_problem(row);
   if (!open) return LayerAsk::none;
   if (row.kind != LayerKind::heights) draw_opacity(row);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 
 namespace terrella {
@@ -109,7 +110,7 @@ void draw_legend(const std::vector<LegendItem>& items, double left, double botto
   ImVec2 at = ImGui::GetCursorScreenPos();
   for (const LegendItem& item : items) {
     const std::string said = item.unit.empty() ? item.title : item.title + ", " + item.unit;
-    list->AddText(at, kInk, shortened(said, inner.x).c_str());
+    list->AddText(at, kInk, panel_text(shortened(said, inner.x)).c_str());
     at.y += 1.25F * unit;
     draw_bar(list, item.look, at, {inner.x, kBarHeight * unit});
     draw_ticks(list, item.look, {at.x, at.y + kBarHeight * unit}, inner.x);

@@ -138,9 +138,7 @@ void draw_numbers(NumberFacts& facts, NumberLook& look) {
   }
   draw_field("First value", look, false);
   draw_field("Last value", look, true);
-  ImGui::PushTextWrapPos(0.0F);
-  for (const std::string& line : facts.lines) ImGui::TextDisabled("%s", line.c_str());
-  ImGui::PopTextWrapPos();
+  for (const std::string& line : facts.lines) write_wrapped(line, true);
 }
 
 }  // namespace terrella

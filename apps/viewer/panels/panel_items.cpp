@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/viewer/panels/panel_fonts.h"
+
 namespace terrella {
 namespace {
 
@@ -28,6 +30,9 @@ namespace {
 
 bool cross_clicked = false;  // by the cross of the panel that is being drawn; there is one mouse
 
+/// True for a byte within a letter.
+bool is_inside(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
 bool pressed_enter() {
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
   return pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter);
@@ -35,10 +40,10 @@ bool pressed_enter() {
 
 }  // namespace
 
-void begin_panel(const char* title) {
+void begin_panel(const char* title, ImGuiWindowFlags more) {
   bool open = true;
   const bool narrow = ImGui::GetIO().DisplaySize.x < kNarrowWindow * ImGui::GetFontSize();
-  ImGui::Begin(title, &open, kPanelWindow | (narrow ? int(ImGuiWindowFlags_HorizontalScrollbar) : 0));
+  ImGui::Begin(title, &open, kPanelWindow | more | (narrow ? int(ImGuiWindowFlags_HorizontalScrollbar) : 0));
   if (!open) cross_clicked = true;
 }
 
@@ -56,22 +61,28 @@ void place_panel(const UiBox& room) {
 }
 
 std::string wrapped(const std::string& text, float widest) {
+  want_letters(text);
   const ImFont& font = *ImGui::GetFont();
   const char *from = text.data(), *end = from + text.size();
   std::string lines;
   while (from < end) {
     const char* to = font.CalcWordWrapPositionA(ImGui::GetFontSize() / font.FontSize, from, end, widest);
-    to = std::max(to, from + 1);
+    to = std::max(to, std::find_if_not(from + 1, end, is_inside));
     lines.append(lines.empty() ? "" : "\n").append(from, to);
     from = std::find_if(to, end, [](char c) { return c != ' '; });
   }
-  return lines;
+  return panel_text(lines);
+}
+
+void write_wrapped(const std::string& text, bool quiet) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(quiet ? ImGuiCol_TextDisabled : ImGuiCol_Text));
+  ImGui::TextUnformatted(wrapped(text, ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::PopStyleColor();
 }
 
 std::string end_of(const std::string& text, float widest) {
   const auto fits = [widest](const std::string& one) { return ImGui::CalcTextSize(one.c_str()).x <= widest; };
   if (fits(text)) return text;
-  const auto is_inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
   for (std::size_t from = 1; from < text.size(); ++from) {
     if (is_inside(text[from])) continue;
     if (std::string end = "..." + text.substr(from); fits(end)) return end;
@@ -86,7 +97,7 @@ void beside_if_room(const char* text) {
   if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + wide <= right) ImGui::SameLine();
 }
 
-void tip(const char* text) {
+void tip(const std::string& text) {
   const bool chosen = ImGui::IsItemFocused() && ImGui::GetIO().NavVisible;
   if (!ImGui::IsItemHovered() && !chosen) return;
   // Beside the panel, where the tip does not hide the next items, if there is room.
@@ -96,9 +107,9 @@ void tip(const char* text) {
   const float room = left ? ImGui::GetIO().DisplaySize.x - side : side;
   const bool beside = room > kTipWidth * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
   const ImVec2 window = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
-  const float widest = std::min(kTipWidth * ImGui::GetFontSize(), window.x - 2.0F * padding.x);
+  const std::string lines = wrapped(text, std::min(kTipWidth * ImGui::GetFontSize(), window.x - 2.0F * padding.x));
   if (!beside) {
-    const ImVec2 words = ImGui::CalcTextSize(text, nullptr, false, widest);
+    const ImVec2 words = ImGui::CalcTextSize(lines.c_str());
     const ImVec2 size{words.x + 2.0F * padding.x, words.y + 2.0F * padding.y};
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float under = high.y + size.y <= window.y ? high.y : low.y - size.y;
@@ -107,9 +118,7 @@ void tip(const char* text) {
   }
   if (beside) ImGui::SetNextWindowPos({side, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {left ? 0.0F : 1.0F, 0.0F});
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
-  ImGui::TextUnformatted(text);
-  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(lines.c_str());
   ImGui::EndTooltip();
 }
 

@@ -20,8 +20,8 @@ inline constexpr ImGuiWindowFlags kFloatingWindow =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-/// Begins a panel with a title and a cross that closes it. End it with ImGui::End().
-void begin_panel(const char* title);
+/// Begins a panel with a title and a cross that closes it. End it with ImGui::End(). `more`: further flags.
+void begin_panel(const char* title, ImGuiWindowFlags more = 0);
 /// True once after the cross of a panel was clicked.
 [[nodiscard]] bool take_panel_closed();
 
@@ -35,15 +35,18 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner);
 /// room.
 void place_panel(const UiBox& room);
 
-/// The same text in lines of at most this width, for items that do not wrap by themselves.
+/// The same text as panels write it (panel_text()), in lines of at most this width.
 [[nodiscard]] std::string wrapped(const std::string& text, float widest);
-/// The end of a text that has room in this width, after dots; the whole text if it fits. For paths.
+/// Writes a text in lines as wide as the panel has room. Quiet: in the ink of less important texts.
+void write_wrapped(const std::string& text, bool quiet = false);
+/// The end of a text that has room in this width, after dots; the whole text if it fits. For paths. Not yet as panels
+/// write it.
 [[nodiscard]] std::string end_of(const std::string& text, float widest);
 /// Puts the next button of a row, with this text, beside the last one if it has room; else under it.
 void beside_if_room(const char* text);
 
 /// Shows a tip for the preceding item under the cursor, or when a key moved the keyboard focus to the item.
-void tip(const char* text);
+void tip(const std::string& text);
 /// True if the Enter key was pressed on the preceding item. ImGui itself takes the space bar alone.
 [[nodiscard]] bool entered();
 /// True if the Enter key was pressed while the panel that is being drawn has the keyboard.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 
 namespace terrella {
@@ -66,17 +67,15 @@ void draw_row(const char* name, const std::vector<Field>& fields, ImVec2 at, ImV
 /// Draws a panel with wrapped text; empty text draws nothing.
 void draw_wrapped(const char* name, const Field& field, ImVec2 at, ImVec2 pivot, float widest) {
   if (field.text.empty()) return;
-  const ImVec2 size = ImGui::CalcTextSize(field.text.c_str(), nullptr, false, widest);
-  begin_fixed(name, at, pivot, size);
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
-  draw_text(field);
-  ImGui::PopTextWrapPos();
+  const Field lines{wrapped(field.text, widest), field.quiet};
+  begin_fixed(name, at, pivot, ImGui::CalcTextSize(lines.text.c_str()));
+  draw_text(lines);
   ImGui::End();
 }
 
 /// Draws wrapped text with its upper edge and a share of its width at a position, unless it would cover other texts.
 void draw_at_head(const char* name, const Field& field, ImVec2 at, float share, float widest) {
-  const ImVec2 size = ImGui::CalcTextSize(field.text.c_str(), nullptr, false, widest);
+  const ImVec2 size = ImGui::CalcTextSize(wrapped(field.text, widest).c_str());
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const double width = double(size.x + 2.0F * padding.x), left = double(at.x) - double(share) * width;
   const UiBox box{left, double(at.y), left + width, double(at.y + size.y + 2.0F * padding.y)};
@@ -139,7 +138,8 @@ void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
 float draw_foot(const PanelStatus& status, double unit_px) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;
   const float gap = margin(), room = size.x - 2.0F * gap;
-  const auto fields = fitted({{status.cursor}, {status.eye}, {status.tiles, true}, {status.time, true}}, room);
+  const auto fields =
+      fitted({{panel_text(status.cursor)}, {status.eye}, {status.tiles, true}, {status.time, true}}, room);
   draw_row("##status", fields, {gap, size.y - gap}, {0.0F, 1.0F});
   const float row = ImGui::GetFontSize() + 2.0F * padding.y;
   if (!status.scale || size.y < kLeastHeight * ImGui::GetFontSize()) return gap + row;

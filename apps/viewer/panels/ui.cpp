@@ -7,34 +7,17 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "apps/viewer/panels/panel_fonts.h"
 
 namespace terrella {
 namespace {
 
-constexpr float kText_px = 15.0F;
 constexpr float kTopMargin = 0.8F;  // in text heights
-
-// Paths of DejaVu Sans in common distributions; the fallback is ImGui's own small font.
-constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"};
-// Latin, general punctuation, arrows, the minus sign: pairs of first and last.
-constexpr ImWchar kGlyphs[] = {0x20, 0x17F, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0};
-
-void load_font(float scale) {
-  ImGuiIO& io = ImGui::GetIO();
-  std::error_code missing;
-  for (const char* path : kFonts) {
-    if (!std::filesystem::exists(path, missing)) continue;
-    if (io.Fonts->AddFontFromFileTTF(path, kText_px * scale, nullptr, kGlyphs) != nullptr) return;
-  }
-  ImFontConfig config;
-  config.SizePixels = 13.0F * scale;
-  io.Fonts->AddFontDefault(&config);
-}
 
 void set_style(float scale) {
   ImGuiStyle& style = ImGui::GetStyle();
@@ -54,7 +37,7 @@ void set_style(float scale) {
 // unit size.
 void fit_to(const Window& window) {
   const float unit_px = static_cast<float>(window.pixels_per_unit().x);
-  load_font(window.text_scale());
+  load_panel_fonts(window.text_scale());
   ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
   set_style(window.text_scale() / unit_px);
 }
@@ -78,13 +61,20 @@ bool panels_act_on(int key) {
   return (!letter || io.KeyCtrl) && std::ranges::find(io.KeyMap, key) != std::end(io.KeyMap);
 }
 
+/// The part of a name that stays the same while the title changes.
+std::string name_of(const ImGuiWindow& window) {
+  const std::string_view name = window.Name;
+  const auto fixed = name.rfind("###");
+  return std::string(fixed == name.npos ? name : name.substr(fixed));
+}
+
 UiBox box_of(const ImGuiWindow& window) {
   return {window.Pos.x, window.Pos.y, window.Pos.x + window.Size.x, window.Pos.y + window.Size.y};
 }
 
 }  // namespace
 
-Ui::Ui(const Window& window) {
+Ui::Ui(const Window& window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
@@ -102,6 +92,11 @@ Ui::~Ui() {
 
 void Ui::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
+  if (std::exchange(rescaled_, false) || letters_wait()) {
+    fit_to(window_);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   ImGui_ImplGlfw_NewFrame();
   hand_over_waiting();
   ImGui::NewFrame();
@@ -143,11 +138,7 @@ bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
 
 void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(panel_has_keyboard() ? nullptr : title); }
 
-void Ui::rescale(const Window& window) {
-  ImGui::GetIO().Fonts->Clear();
-  fit_to(window);
-  ImGui_ImplOpenGL3_DestroyFontsTexture();  // recreated at the start of the next frame
-}
+bool Ui::has_waiting() const { return !waiting_.empty() || letters_wait(); }
 
 bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const {
   ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
@@ -203,7 +194,7 @@ void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterC
 void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
 void Ui::use_text(float scale) {
-  load_font(scale);
+  load_panel_fonts(scale);
   set_style(scale);
 }
 
@@ -235,10 +226,11 @@ std::string Ui::boxes_text(const std::vector<UiBox>& labels) {
       {"panels", nlohmann::json::object()}, {"labels", nlohmann::json::array()}, {"cut", nlohmann::json::array()}};
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!is_panel(*window)) continue;
-    all["panels"][window->Name] = numbers(box_of(*window));
+    const std::string name = name_of(*window);
+    all["panels"][name] = numbers(box_of(*window));
     // Small panels beside the globe fit their contents a frame later.
     const bool fits = (window->Flags & (ImGuiWindowFlags_NoNav | ImGuiWindowFlags_HorizontalScrollbar)) != 0;
-    if (!fits && window->ContentSizeIdeal.x > window->WorkRect.GetWidth() + 1.0F) all["cut"].push_back(window->Name);
+    if (!fits && window->ContentSizeIdeal.x > window->WorkRect.GetWidth() + 1.0F) all["cut"].push_back(name);
   }
   for (const UiBox& label : labels) all["labels"].push_back(numbers(label));
   return all.dump();

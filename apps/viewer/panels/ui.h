@@ -18,13 +18,16 @@ struct UiBox {
   [[nodiscard]] bool overlaps(const UiBox& other) const {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
+  [[nodiscard]] bool has_size_of(const UiBox& other) const {
+    return right - left == other.right - other.left && bottom - top == other.bottom - other.top;
+  }
 };
 
 /// Dear ImGui for a window: context, font, style and drawing. Panels keep the mouse's events over them, and keys only
 /// while an interactive panel is open. Key states are always tracked, even for events that a panel keeps. thread: main
 class Ui {
  public:
-  explicit Ui(const Window& window);
+  explicit Ui(const Window& window);  ///< the window must outlive it
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
@@ -49,15 +52,15 @@ class Ui {
   /// Moves the keyboard from the globe to the panel with this title, or from any panel to the globe.
   static void pass_keyboard(const char* title);
   [[nodiscard]] static bool panel_has_keyboard();
-  /// Adjusts text and panels to the window's new scale. Not within a frame.
-  static void rescale(const Window& window);
+  /// Adjusts text and panels to the window's new scale at the next frame.
+  void rescale() { rescaled_ = true; }
   /// On: a text field will open, and characters wait until field_is_ready(). Off: the field closed, and waiting
   /// characters are dropped.
   void expect_text(bool on);
   /// The expected field now has the keyboard.
   void field_is_ready() { field_ready_ = true; }
-  /// True if keys or characters wait for another frame.
-  [[nodiscard]] bool has_waiting() const { return !waiting_.empty(); }
+  /// True if keys, characters or the letters of panels wait for another frame.
+  [[nodiscard]] bool has_waiting() const;
   // Event handlers. They return true if a panel keeps the event, and false while events are disabled.
   // `at` is the pointer's place, in units of the window.
   bool on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const;
@@ -96,11 +99,13 @@ class Ui {
   };
   void hand_over_waiting();
 
+  const Window& window_;
   std::deque<KeyEvent> waiting_;  ///< in order of arrival
   unsigned panels_ = 0;
   bool text_expected_ = false;
   bool field_ready_ = false;
   bool mouse_held_ = false;
+  bool rescaled_ = false;
 };
 
 }  // namespace terrella

@@ -119,7 +119,7 @@ void draw_time(ViewSettings& settings) {
   }
   tip("UTC, 1950 to 2050, for example 2026-06-21T12:00Z; then press Enter. Without a time the light comes over the "
       "viewer's shoulder.");
-  if (!settings.time_problem.empty()) ImGui::TextWrapped("%s", settings.time_problem.c_str());
+  if (!settings.time_problem.empty()) write_wrapped(settings.time_problem);
   bool has_time = settings.time.has_value();
   if (ImGui::Checkbox("Use date and time", &has_time)) {
     set_time(settings, has_time ? std::optional<UtcTime>(present_time()) : std::nullopt);
@@ -157,7 +157,7 @@ const Action* draw_buttons(std::span<const Action> actions) {
     if (action.button == nullptr) continue;
     if (!std::exchange(first, false)) beside_if_room(action.button);
     if (ImGui::Button(action.button)) clicked = &action;
-    tip(fmt::format("{}: {}", action.keys, action.what).c_str());
+    tip(fmt::format("{}: {}", action.keys, action.what));
   }
   return clicked;
 }

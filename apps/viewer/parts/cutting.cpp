@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 
 namespace terrella {
@@ -53,7 +54,7 @@ void Cutting::draw(float) {
     if (!cut) continue;
     row.percent = percent_of(cut->state());
     const std::string name = cut->picture().filename().string();
-    const std::string text = fmt::format("Cutting {}: {} %", name, row.percent);
+    const std::string text = panel_text(fmt::format("Cutting {}: {} %", name, row.percent));
     ImGui::ProgressBar(static_cast<float>(row.percent) / 100.0F, {-1.0F, 0.0F}, text.c_str());
   }
   ImGui::End();

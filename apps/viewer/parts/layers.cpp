@@ -81,6 +81,13 @@ void Layers::draw_legend(float foot, bool before_panels) const {
     terrella::draw_legend(items, gap, bottom);
 }
 
+std::optional<std::string> Layers::shown_objects(LayerId layer) const {
+  const auto row = std::ranges::find_if(rows_, [layer](const LayerRow& one) {
+    return one.kind == LayerKind::objects && one.id == layer && one.look.shown;
+  });
+  return row == rows_.end() ? std::nullopt : std::optional(row->name);
+}
+
 std::string Layers::value_at(const Geodetic& place) {
   const auto row = std::find_if(rows_.rbegin(), rows_.rend(),
                                 [](const LayerRow& layer) { return layer.numbers && layer.look.shown; });

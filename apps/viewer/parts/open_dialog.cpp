@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/tools/recent_files.h"
 
@@ -27,10 +28,10 @@ bool begins_with(const std::string& name, const std::string& start) {
          });
 }
 
-/// A row of a list. A double click or Enter chooses it at once; a click only marks it.
+/// A row of a list, within an ID of its own. A double click or Enter chooses it at once; a click only marks it.
 enum class Row { left_alone, marked, chosen };
 Row draw_row(const std::string& name, bool marked) {
-  const std::string lines = wrapped(name, ImGui::GetContentRegionAvail().x);
+  const std::string lines = wrapped(name, ImGui::GetContentRegionAvail().x) + "###row";
   const bool clicked = ImGui::Selectable(lines.c_str(), marked, ImGuiSelectableFlags_AllowDoubleClick);
   if (entered() || (clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) return Row::chosen;
   return clicked ? Row::marked : Row::left_alone;
@@ -146,7 +147,7 @@ void OpenDialog::draw_open(float foot) {
   begin_panel(panel());
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_path();
-  if (!problem_.empty()) ImGui::TextWrapped("%s", problem_.c_str());
+  if (!problem_.empty()) write_wrapped(problem_);
   if (is_open()) draw_recent();
   const float row = ImGui::GetTextLineHeightWithSpacing();
   const float others = ImGui::GetCursorPosY() + 2.5F * ImGui::GetFrameHeightWithSpacing();
@@ -163,6 +164,7 @@ void OpenDialog::draw_path() {
                                                 text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   const bool edited = text_ != text.data();
   text_ = text.data();
+  want_letters(text_);
   if (ImGui::IsItemActive()) context_.ui.field_is_ready();
   if (edited) typed();
   if (entered) take(text_);
@@ -177,7 +179,7 @@ void OpenDialog::draw_recent() {
     ImGui::PushID(int(k));
     const Row row = draw_row(name, text_ == path);
     ImGui::PopID();
-    tip(path.c_str());
+    tip(path);
     if (row == Row::marked) text_ = path;
     std::error_code unknown;
     if (row != Row::chosen) continue;
@@ -187,7 +189,7 @@ void OpenDialog::draw_recent() {
 }
 
 void OpenDialog::draw_entries(float height) {
-  group(end_of(folder_.string(), ImGui::GetContentRegionAvail().x).c_str());
+  group(panel_text(end_of(folder_.string(), ImGui::GetContentRegionAvail().x)).c_str());
   ImGui::BeginChild("##entries", {0.0F, height}, false, ImGuiWindowFlags_NavFlattened);
   if (begins_.empty() && folder_.has_relative_path() && draw_row("../", false) == Row::chosen) {
     enter(folder_.parent_path());
@@ -199,7 +201,9 @@ void OpenDialog::draw_entries(float height) {
     if (!begins_with(entry.name, begins_)) continue;
     ++shown;
     const fs::path path = folder_ / entry.name;
+    ImGui::PushID(entry.name.c_str());
     const Row row = draw_row(entry.name + (entry.is_folder ? "/" : ""), text_ == path.string());
+    ImGui::PopID();
     if (row == Row::marked) text_ = path.string();
     if (row != Row::chosen) continue;
     if (!entry.is_folder) return ImGui::EndChild(), choose(path);

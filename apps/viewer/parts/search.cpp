@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "apps/process/data_dir.h"
 #include "apps/viewer/input.h"
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/panels/readout.h"
 #include "geo/body.h"
@@ -16,7 +19,8 @@
 namespace terrella {
 namespace {
 
-constexpr double kPlaceHeight = 0.05;  // height above a found place, in radii
+constexpr double kPlaceHeight = 0.05;   // height above a found place, in radii
+constexpr double kCountryHeight = 1.5;  // height above a country, in sides of a square of its area: it fills the window
 constexpr std::size_t kMostFound = 8;
 constexpr double kCoordinateStep_deg = 1e-4;  // last digit of coordinates in the list
 constexpr float kSearchWidth = 22.0F;         // in text heights
@@ -44,7 +48,10 @@ Result<Gazetteer> Search::load() const {
   if (!file_.empty()) return Gazetteer::load(file_);
   if (context_.globe.options().body.name != earth().name) return Gazetteer();
   try {
-    return Gazetteer::load(data_file("cities.json"));
+    auto places = Gazetteer::load(data_file("cities.json"));
+    if (!places) return places;
+    if (Status added = places->add_countries(data_file("map.json")); !added) return added.error();
+    return places;
   } catch (const BrokenInstallation& broken) {
     return Error{broken.what()};
   }
@@ -83,6 +90,7 @@ std::optional<NamedPlace> Search::draw_field() {
                                                 text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemActive()) context_.ui.field_is_ready();
   text_ = text.data();
+  want_letters(text_);
   std::optional<NamedPlace> chosen;
   if (const auto place = read_place(text_)) {
     const NamedPlace named{.name = place_text(*place, kCoordinateStep_deg), .place = *place};
@@ -100,12 +108,11 @@ std::optional<NamedPlace> Search::draw_found(bool entered) const {
   const auto found = places_->find(text_, kMostFound);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const std::string name = wrapped(full_name(*found[k]), ImGui::GetContentRegionAvail().x);
-    if (ImGui::Selectable(fmt::format("{}##{}", name, k).c_str())) chosen = *found[k];
+    if (ImGui::Selectable(fmt::format("{}###{}", name, k).c_str())) chosen = *found[k];
   }
   if (found.empty() && !text_.empty()) {
     const bool none = places_->size() == 0;
-    ImGui::TextWrapped("%s",
-                       none ? "No list of places for this body: give one with --places" : "No place has this name");
+    write_wrapped(none ? "No list of places for this body: give one with --places" : "No place has this name");
   }
   if (entered && !found.empty()) chosen = *found.front();
   return chosen;
@@ -115,7 +122,8 @@ void Search::fly_to(const NamedPlace& place) {
   toggle();
   Camera camera = context_.navigator.camera();
   camera.eye = place.place;
-  camera.eye.height_m = kPlaceHeight * context_.globe.options().body.ellipsoid.a_m();
+  camera.eye.height_m = std::max(kPlaceHeight * context_.globe.options().body.ellipsoid.a_m(),
+                                 kCountryHeight * 1000.0 * std::sqrt(place.area_km2));
   camera.heading = Angle{};
   camera.pitch = Angle::degrees(-90.0);
   context_.navigator.fly_to(camera, Input::now());

@@ -17,6 +17,7 @@ namespace terrella {
 namespace {
 
 constexpr std::size_t kMostGazetteerBytes = 32UL << 20;
+constexpr double kPeoplePerKm2 = 62.0;  // mean of all land: 8.1e9 people on 1.3e8 km² without Antarctica
 
 /// Text without case, accents and blanks around it. Text that is not UTF-8 is kept as it is.
 std::string folded(std::string_view text) {
@@ -93,13 +94,32 @@ std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
   return places;
 }
 
-}  // namespace
-
-Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
+/// Reads a JSON object.
+Result<nlohmann::json> read_object(const std::filesystem::path& file) {
   const auto bytes = read_file(file, kMostGazetteerBytes);
   if (!bytes) return Error{bytes.error().message};
-  const std::string_view text = as_text(*bytes);
-  const Result<nlohmann::json> json = parse_json_object(text, kMostGazetteerBytes, file.string());
+  return parse_json_object(as_text(*bytes), kMostGazetteerBytes, file.string());
+}
+
+}  // namespace
+
+std::vector<NamedPlace> countries_of(const nlohmann::json& columns) {
+  std::vector<NamedPlace> countries;
+  for (std::size_t k = 0; k < columns.at("name").size(); ++k) {
+    NamedPlace country{.name = columns.at("name").at(k).get<std::string>(),
+                       .area_km2 = columns.at("km2").at(k).get<double>()};
+    country.folded = folded(country.name);
+    country.place = {.lat = Angle::degrees(columns.at("lat").at(k).get<double>()),
+                     .lon = Angle::degrees(columns.at("lon").at(k).get<double>())};
+    countries.push_back(std::move(country));
+  }
+  return countries;
+}
+
+double rank_of(const NamedPlace& place) { return std::max(place.people, kPeoplePerKm2 * place.area_km2); }
+
+Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
+  const Result<nlohmann::json> json = read_object(file);
   if (!json) return json.error();
   Gazetteer gazetteer;
   if (json->contains("countries")) {
@@ -115,25 +135,37 @@ Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
     }
   }
   if (gazetteer.places_.empty()) return Error{file.string() + ": no GeoJSON of named places"};
-  std::ranges::stable_sort(gazetteer.places_, std::ranges::greater{}, &NamedPlace::people);
+  gazetteer.sort();
   return gazetteer;
+}
+
+void Gazetteer::sort() { std::ranges::stable_sort(places_, std::ranges::greater{}, &rank_of); }
+
+Status Gazetteer::add_countries(const std::filesystem::path& map) {
+  const Result<nlohmann::json> json = read_object(map);
+  if (!json) return json.error();
+  try {
+    for (NamedPlace& country : countries_of(json->at("countries"))) places_.push_back(std::move(country));
+  } catch (const nlohmann::json::exception& wrong) {
+    return Error{map.string() + ": not a map: " + wrong.what()};
+  }
+  sort();
+  return Done{};
 }
 
 std::vector<const NamedPlace*> Gazetteer::find(std::string_view text, std::size_t most) const {
   const std::string sought = folded(text);
-  std::vector<const NamedPlace*> begins, has;
-  if (sought.empty()) return begins;
+  std::vector<const NamedPlace*> found, begins, has;
+  if (sought.empty()) return found;
   for (const NamedPlace& place : places_) {
     const auto at = place.folded.find(sought);
-    if (at == 0) {
-      begins.push_back(&place);
-    } else if (at != std::string::npos) {
-      has.push_back(&place);
-    }
+    if (at == std::string::npos) continue;
+    (at > 0 ? has : place.folded.size() > sought.size() ? begins : found).push_back(&place);
   }
-  begins.insert(begins.end(), has.begin(), has.end());
-  begins.resize(std::min(begins.size(), most));
-  return begins;
+  found.insert(found.end(), begins.begin(), begins.end());
+  found.insert(found.end(), has.begin(), has.end());
+  found.resize(std::min(found.size(), most));
+  return found;
 }
 
 }  // namespace terrella

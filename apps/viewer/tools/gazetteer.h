@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,9 +17,16 @@ struct NamedPlace {
   std::string folded = {};   ///< name as used in searches: without case and accents
   Geodetic place = {};
   double people = 0.0;
+  double area_km2 = 0.0;    ///< largest part of a country; 0: not a country
   bool is_capital = false;  ///< capital of a country
   bool is_part = false;     ///< part of a city
 };
+
+/// Countries by the columns `name`, `lat`, `lon` and `km2` of a map. Throws nlohmann::json::exception. thread: any
+[[nodiscard]] std::vector<NamedPlace> countries_of(const nlohmann::json& columns);
+
+/// Rank of a place among others by its people, or by the area of a country: larger ones come first. thread: any
+[[nodiscard]] double rank_of(const NamedPlace& place);
 
 /// Places by name. thread: any
 class Gazetteer {
@@ -28,14 +36,19 @@ class Gazetteer {
   /// cannot be read or contains no place. Invalid features are skipped.
   [[nodiscard]] static Result<Gazetteer> load(const std::filesystem::path& file);
 
-  /// Finds at most `most` places. Names that begin with the text come first, then names that contain the text; both are
-  /// sorted by population, largest first. Case and accents do not count. A blank text finds nothing.
+  /// Adds the countries of the program's map (data/vector/map.json). The error names the file.
+  [[nodiscard]] Status add_countries(const std::filesystem::path& map);
+
+  /// Finds at most `most` places. Names that are the text come first, then names that begin with it, then names that
+  /// contain it; each sorted by rank_of(). Case and accents do not count. A blank text finds nothing.
   [[nodiscard]] std::vector<const NamedPlace*> find(std::string_view text, std::size_t most) const;
-  [[nodiscard]] const std::vector<NamedPlace>& places() const { return places_; }  ///< largest population first
+  [[nodiscard]] const std::vector<NamedPlace>& places() const { return places_; }  ///< the highest rank first
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 
  private:
-  std::vector<NamedPlace> places_;  ///< largest population first
+  void sort();
+
+  std::vector<NamedPlace> places_;  ///< the highest rank first
 };
 
 }  // namespace terrella

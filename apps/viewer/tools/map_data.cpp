@@ -10,7 +10,7 @@
 
 #include "apps/process/data_dir.h"
 #include "apps/viewer/tools/gazetteer.h"
-#include "objects/label_layout.h"
+#include "base/code_points.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 
@@ -68,13 +68,11 @@ void add_lines(const Json& map, const char* field, MapLineKind kind, std::vector
 }
 
 void add_countries(const Json& countries, std::vector<MapName>& names) {
-  for (std::size_t k = 0; k < countries.at("name").size(); ++k) {
-    MapName name{.text = in_capitals(composed(countries.at("name").at(k).get<std::string>())), .place = {}};
-    name.place = {.lat = Angle::degrees(countries.at("lat").at(k).get<double>()),
-                  .lon = Angle::degrees(countries.at("lon").at(k).get<double>())};
-    const double km2 = countries.at("km2").at(k).get<double>();
-    name.rank = kCountryRank * km2;
-    name.widest_m = 1000.0 * std::sqrt(km2) / (kAreaShare * kCharacter_px * double(code_points(name.text).size()));
+  for (const NamedPlace& country : countries_of(countries)) {
+    MapName name{.text = in_capitals(composed(country.name)), .place = country.place};
+    name.rank = kCountryRank * country.area_km2;
+    name.widest_m =
+        1000.0 * std::sqrt(country.area_km2) / (kAreaShare * kCharacter_px * double(code_points(name.text).size()));
     name.is_area = true;
     names.push_back(std::move(name));
   }

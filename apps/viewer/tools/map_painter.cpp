@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "apps/viewer/panels/over_globe.h"
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "base/code_points.h"
 
 namespace terrella {
 namespace {
@@ -93,11 +95,15 @@ void MapPainter::draw_lines(const Globe& globe, const View& view, double unit_px
   }
 }
 
-// A name with a letter that the font does not have is written without marks, or left out.
-void MapPainter::fit_to_font() {
+// A name with a letter that no font has is written without marks, or left out. The next frame has the other letters.
+void MapPainter::fit_to_fonts() {
+  std::vector<std::string> texts;
+  for (const MapName& name : names_) texts.push_back(panel_text(name.text));
+  if (letters_wait()) return;
   std::vector<MapName> fitting;
-  for (MapName& name : names_) {
-    if (!font_has(name.text)) name.text = without_marks(name.text);
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    MapName& name = names_[k];
+    name.text = font_has(texts[k]) ? std::move(texts[k]) : without_marks(name.text);
     if (font_has(name.text)) fitting.push_back(std::move(name));
   }
   names_ = {};
@@ -106,7 +112,8 @@ void MapPainter::fit_to_font() {
 
 std::vector<UiBox> MapPainter::draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
                                           const std::vector<UiBox>& taken) {
-  if (!labels_) fit_to_font();
+  if (!labels_) fit_to_fonts();
+  if (!labels_) return {};
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const Ground ground = globe.ground();
   const std::vector<EyePart> eyes = eye_parts(globe, view);

@@ -28,12 +28,12 @@ class MapPainter {
   [[nodiscard]] const std::vector<std::string>& attributions() const { return attributions_; }
 
  private:
-  void fit_to_font();
+  void fit_to_fonts();
 
   Ellipsoid ellipsoid_;
   MapLines lines_;
-  std::vector<MapName> names_;       ///< until fit_to_font()
-  std::optional<MapLabels> labels_;  ///< with texts in letters that the font has
+  std::vector<MapName> names_;       ///< until fit_to_fonts()
+  std::optional<MapLabels> labels_;  ///< with texts in letters that fonts have
   std::vector<std::string> attributions_;
 };
 

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "apps/viewer/panels/over_globe.h"
+#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/graticule_lines.h"
@@ -38,12 +39,21 @@ class PictureUi {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.DisplaySize = {static_cast<float>(size.width_px), static_cast<float>(size.height_px)};
-    Ui::use_text(std::clamp(io.DisplaySize.y / kPlainHeight_px, 1.0F, kMost));
+    load_text();
     drawn_ = ImGui_ImplOpenGL3_Init("#version 450 core");
     return drawn_;
   }
 
+  /// Loads the letters that the last frame wanted.
+  void load_letters() {
+    load_text();
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+
  private:
+  static void load_text() { Ui::use_text(std::clamp(ImGui::GetIO().DisplaySize.y / kPlainHeight_px, 1.0F, kMost)); }
+
   ImGuiContext* before_;
   ImGuiContext* own_;
   bool drawn_ = false;
@@ -68,6 +78,15 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
   return overlay.credits.empty() || Ui::shown_box(kAttributionBox).has_value();
 }
 
+/// Prepares a frame with the overlay. False if the credits have no room.
+bool draw_frame(const Globe& globe, Viewport size, const PictureOverlay& overlay) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  const bool credited = draw_overlay(globe, size, overlay);
+  ImGui::Render();
+  return credited;
+}
+
 }  // namespace
 
 Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size, const PictureOverlay& overlay) {
@@ -76,10 +95,11 @@ Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size
   if (!ui.open(size)) return Error{"texts and lines cannot be drawn over the picture: libGL is missing; install it"};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, size.width_px, size.height_px);
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
-  const bool credited = draw_overlay(globe, size, overlay);
-  ImGui::Render();
+  bool credited = draw_frame(globe, size, overlay);
+  if (letters_wait()) {
+    ui.load_letters();
+    credited = draw_frame(globe, size, overlay);
+  }
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (credited) return Done{};
   return Error{fmt::format("{} x {} pixels have no room for the sources: choose a larger picture, or leave them out",

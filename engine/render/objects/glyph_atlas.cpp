@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "render/gl/storage.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 constexpr int kHalo_px = 2;
 constexpr float kHaloReach_px = 2.4F;
-constexpr float kFixed = 64.0F;  // FreeType's fixed-point unit: 1/64 pixel
 
 /// Returns the strength of the halo: that of the strongest nearby pixel, weakened by its distance.
 std::uint8_t halo_at(const FT_Bitmap& ink, int x, int y) {
@@ -32,21 +32,8 @@ std::uint8_t halo_at(const FT_Bitmap& ink, int x, int y) {
 
 }  // namespace
 
-Result<std::unique_ptr<GlyphAtlas>> GlyphAtlas::create(std::vector<std::byte> font, int size_px) {
+Result<std::unique_ptr<GlyphAtlas>> GlyphAtlas::create() {
   std::unique_ptr<GlyphAtlas> atlas(new GlyphAtlas);
-  atlas->font_ = std::move(font);
-  FT_Library library = nullptr;
-  if (FT_Init_FreeType(&library) != 0) return Error{"FreeType cannot be started"};
-  atlas->library_ = {library, &FT_Done_FreeType};
-  FT_Face face = nullptr;
-  if (FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(atlas->font_.data()),
-                         static_cast<FT_Long>(atlas->font_.size()), 0, &face) != 0) {
-    return Error{"the labels' font is not a font that FreeType reads"};
-  }
-  atlas->face_ = {face, &FT_Done_Face};
-  if (FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size_px)) != 0) {
-    return Error{"the labels' font has no such size"};
-  }
   atlas->texture_ = gl::make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(atlas->texture_.name(), 1, GL_RG8, kSide_px, kSide_px);
   if (!gl::has_storage(atlas->texture_)) return Error{"the driver has no memory for the letters of labels"};
@@ -55,25 +42,30 @@ Result<std::unique_ptr<GlyphAtlas>> GlyphAtlas::create(std::vector<std::byte> fo
   return atlas;
 }
 
-const Glyph& GlyphAtlas::glyph(char32_t character) {
-  const auto [found, is_new] = glyphs_.try_emplace(character);
-  Glyph& glyph = found->second;
-  if (is_new && FT_Load_Char(face_.get(), character, FT_LOAD_RENDER) == 0) draw(glyph);
-  return glyph;
+Glyph GlyphAtlas::glyph(const TextShaper& shaper, const ShapedGlyph& shaped) {
+  const auto [found, is_new] = glyphs_.try_emplace(std::uint64_t{shaped.font} << 32U | shaped.index);
+  const FT_Face face = shaper.face(shaped.font);
+  if (is_new && FT_Load_Glyph(face, shaped.index, FT_LOAD_RENDER) == 0) found->second = draw(*face);
+  return found->second;
 }
 
-void GlyphAtlas::draw(Glyph& glyph) {
-  const FT_GlyphSlot slot = face_->glyph;
-  const FT_Bitmap& ink = slot->bitmap;
-  glyph.advance = float(slot->advance.x) / kFixed;
-  if (ink.width == 0 || ink.rows == 0 || ink.pixel_mode != FT_PIXEL_MODE_GRAY) return;
+void GlyphAtlas::clear() {
+  glyphs_.clear();
+  row_x_ = row_y_ = row_height_ = 0;
+  full_ = false;
+}
+
+Glyph GlyphAtlas::draw(const FT_FaceRec_& face) {
+  Glyph glyph;
+  const FT_Bitmap& ink = face.glyph->bitmap;
+  if (ink.width == 0 || ink.rows == 0 || ink.pixel_mode != FT_PIXEL_MODE_GRAY) return glyph;
   glyph.width = static_cast<short>(ink.width + 2 * kHalo_px);
   glyph.height = static_cast<short>(ink.rows + 2 * kHalo_px);
-  glyph.left = static_cast<short>(slot->bitmap_left - kHalo_px);
-  glyph.top = static_cast<short>(slot->bitmap_top + kHalo_px);
+  glyph.left = static_cast<short>(face.glyph->bitmap_left - kHalo_px);
+  glyph.top = static_cast<short>(face.glyph->bitmap_top + kHalo_px);
   if (!find_room(glyph)) {
-    glyph.width = glyph.height = 0;
-    return;
+    full_ = true;
+    return {};
   }
   std::vector<std::uint8_t> texels;
   for (int y = -kHalo_px; y < int(ink.rows) + kHalo_px; ++y) {
@@ -86,6 +78,7 @@ void GlyphAtlas::draw(Glyph& glyph) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture_.name(), 0, glyph.x, glyph.y, glyph.width, glyph.height, GL_RG, GL_UNSIGNED_BYTE,
                       texels.data());
+  return glyph;
 }
 
 bool GlyphAtlas::find_room(Glyph& glyph) {
@@ -100,18 +93,5 @@ bool GlyphAtlas::find_room(Glyph& glyph) {
   row_height_ = std::max(row_height_, int(glyph.height));
   return true;
 }
-
-float GlyphAtlas::kerning(char32_t left, char32_t right) const {
-  FT_Vector between{};
-  FT_Face face = face_.get();
-  if (FT_Get_Kerning(face, FT_Get_Char_Index(face, left), FT_Get_Char_Index(face, right), FT_KERNING_DEFAULT,
-                     &between) != 0) {
-    return 0.0F;
-  }
-  return float(between.x) / kFixed;
-}
-
-int GlyphAtlas::ascent_px() const { return static_cast<int>(face_->size->metrics.ascender / 64); }
-int GlyphAtlas::descent_px() const { return static_cast<int>(-face_->size->metrics.descender / 64); }
 
 }  // namespace terrella

@@ -14,10 +14,27 @@ namespace terrella {
 namespace {
 
 constexpr int kText_px = 15;
-constexpr float kGap_px = 4.0F;     // gap between a marker and its text
-constexpr float kMargin_px = 2.0F;  // margin around a text that stays free
+constexpr float kGap_px = 4.0F;             // gap between a marker and its text
+constexpr float kMargin_px = 2.0F;          // margin around a text that stays free
+constexpr std::size_t kMostLines = 10'000;  // texts that are kept
+constexpr float kLeastShare = 0.5F;         // least share of a place's depth at which its text lies
 constexpr GLint kLabelViewportUniform = 0;
 constexpr GLint kLabelBiasUniform = 1;
+
+/// Returns the share of a place's depth at which a text hides behind no ground of a planet's ellipsoid: towards the
+/// middle of the disc the ground is nearer than the place, near the limb by much.
+float share_before_ground(const View& view, const Ellipsoid& planet, const glm::dvec3& place_m, const LabelBox& text) {
+  const double depth_m = glm::dot(place_m - view.eye.xyz_m, view.forward);
+  double share = 1.0;
+  for (const float x : {text.low_px.x, text.high_px.x}) {
+    for (const float y : {text.low_px.y, text.high_px.y}) {
+      const EcefDir ray = pixel_ray(view, {x, y});
+      const auto away_m = planet.intersect_m(view.eye, ray);
+      if (away_m) share = std::min(share, *away_m * glm::dot(ray.xyz, view.forward) / depth_m);
+    }
+  }
+  return std::max(static_cast<float>(share), kLeastShare);
+}
 
 }  // namespace
 
@@ -35,7 +52,10 @@ std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2
 
 Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
   std::unique_ptr<LabelPass> pass(new LabelPass);
-  auto atlas = GlyphAtlas::create(std::move(font), kText_px);
+  auto shaper = TextShaper::create(std::move(font), kText_px);
+  if (!shaper) return shaper.error();
+  pass->shaper_ = std::move(*shaper);
+  auto atlas = GlyphAtlas::create();
   if (!atlas) return atlas.error();
   pass->atlas_ = std::move(*atlas);
   if (Status s = build_into(pass->program_,
@@ -54,6 +74,7 @@ void LabelPass::set_up_array() {
   gl::float_attribute(array, 0, 0, 3, offsetof(Character, high_m));
   gl::float_attribute(array, 1, 0, 3, offsetof(Character, low_m));
   gl::float_attribute(array, 2, 0, 2, offsetof(Character, offset_px));
+  gl::float_attribute(array, 5, 0, 1, offsetof(Character, depth_share));
   glEnableVertexArrayAttrib(array, 3);
   glVertexArrayAttribFormat(array, 3, 4, GL_SHORT, GL_FALSE, offsetof(Character, atlas_px));
   glVertexArrayAttribBinding(array, 3, 0);
@@ -83,15 +104,14 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
   order_.resize(std::min(order_.size(), kMostLabels));
 }
 
-LabelPass::Line LabelPass::line_of(const std::u32string& text) {
-  Line line;
-  char32_t before = 0;
-  for (const char32_t character : text) {
-    const Glyph& glyph = atlas_->glyph(character);
-    if (before != 0) line.width_px += atlas_->kerning(before, character);
-    line.glyphs.emplace_back(glyph, line.width_px);
-    line.width_px += glyph.advance;
-    before = character;
+const LabelPass::Line& LabelPass::line_of(const std::u32string& text) {
+  const auto [found, is_new] = lines_.try_emplace(text);
+  Line& line = found->second;
+  if (!is_new) return line;
+  const ShapedText shaped = shaper_->shape(text);
+  line.width_px = shaped.width_px;
+  for (const ShapedGlyph& glyph : shaped.glyphs) {
+    line.glyphs.emplace_back(atlas_->glyph(*shaper_, glyph), glm::vec2(glyph.x_px, glyph.y_px));
   }
   return line;
 }
@@ -106,6 +126,10 @@ bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSi
 void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers,
                       ShownLabels& shown) {
   merge(layers);
+  if (atlas_->is_full() || lines_.size() > kMostLines) {
+    lines_.clear();
+    atlas_->clear();
+  }
   LabelRoom room(view.viewport);
   for (auto& characters : characters_) characters.clear();
   shown = {.picture = view.viewport};
@@ -119,15 +143,25 @@ void LabelPass::place(const View& view, const LabelSight& sight, std::span<const
     }
     const double away_m = glm::length(label.place_m - view.eye.xyz_m);
     const auto radius_px = static_cast<float>(label.object.radius_m / away_m * focal_px);
-    const float right_px = std::round(std::max(0.5F * label.object.size_px, radius_px)) + kGap_px;
-    const glm::vec2 from = glm::vec2(*at) + glm::vec2(right_px, 0.0F);
-    const glm::vec2 margin(kMargin_px), up(0.0F, 0.5F * float(atlas_->ascent_px() + atlas_->descent_px()));
+    const float gap_px = std::round(std::max(0.5F * label.object.size_px, radius_px)) + kGap_px;
+    const glm::vec2 place(*at), margin(kMargin_px),
+        up(0.0F, 0.5F * float(shaper_->ascent_px() + shaper_->descent_px()));
+    const glm::vec2 begin = place + glm::vec2(gap_px, 0.0F);
     // Most labels of a crowd have no room where their text begins, so their text need not be measured.
-    if (!room.is_free({from - up - margin, from + up + margin})) continue;
-    const Line line = line_of(label.text);
+    if (!room.is_free({begin - up - margin, begin + up + margin})) continue;
+    const Line& line = line_of(label.text);
+    const auto is_over_limb = [&](float x_px) {
+      return sight.limb != nullptr && is_beside_planet(view, *sight.limb, *at + glm::dvec2(x_px, 0.0));
+    };
+    const float wide_px = gap_px + line.width_px;
+    const bool turned = is_over_limb(wide_px) && !is_over_limb(0.0F) && !is_over_limb(-wide_px);
+    const float left_px = turned ? -wide_px : gap_px;
+    const glm::vec2 from = place + glm::vec2(left_px, 0.0F);
     const LabelBox text{from - up, from + glm::vec2(line.width_px, 0.0F) + up};
     if (!room.take({text.low_px - margin, text.high_px + margin})) continue;
-    put(label, ref.layer->drawn(label.object.color, label), line, right_px);
+    const bool over_ground = sight.limb != nullptr && !is_underground(label.object);
+    put(label, ref.layer->drawn(label.object.color, label), line, left_px,
+        over_ground ? share_before_ground(view, *sight.limb, label.place_m, text) : 1.0F);
     shown.labels.push_back({ref.layer->serial(), ref.index, text});
   }
   std::vector<Character> all;
@@ -139,15 +173,17 @@ void LabelPass::place(const View& view, const LabelSight& sight, std::span<const
   buffer_.fill(all.data(), all.size() * sizeof(Character));
 }
 
-void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, float right_px) {
+void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, float left_px,
+                    float depth_share) {
   const SplitPosition p = split_position(label.place_m);
   auto& characters = characters_[(is_underground(label.object) ? 0U : 2U) + (label.object.through_surface ? 1U : 0U)];
   // Centres a small letter vertically on the place.
   const float pen_y_px = -std::round(0.35F * float(kText_px));
-  for (const auto& [glyph, pen_px] : line.glyphs) {
+  for (const auto& [glyph, origin_px] : line.glyphs) {
     if (glyph.width == 0) continue;
-    const glm::vec2 offset(std::round(right_px + pen_px) + glyph.left, pen_y_px + glyph.top - glyph.height);
-    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color});
+    const glm::vec2 offset(std::round(left_px + origin_px.x) + glyph.left,
+                           std::round(pen_y_px + origin_px.y) + glyph.top - glyph.height);
+    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color, depth_share});
   }
 }
 

@@ -4,8 +4,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "render/objects/glyph_atlas.h"
 #include "render/objects/layer_buffers.h"
 #include "render/objects/object_common.h"
+#include "text/text_shaper.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -25,6 +28,7 @@ namespace terrella {
 /// Conditions, other than labels in front, under which labels are hidden.
 struct LabelSight {
   glm::dvec3 hiding_half_axes_m{0.0};  ///< half axes of an opaque ellipsoid that hides labels; 0: none
+  const Ellipsoid* limb = nullptr;     ///< texts stay within its disc where they can; null: anywhere
   bool shown = true;
   bool above_ground = true;         ///< true: all labels over the ground are visible
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
@@ -44,9 +48,10 @@ struct ShownLabels {
   [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
 };
 
-/// Draws texts beside their places: antialiased, with a dark halo, all of one size, at the depth of their markers. If
-/// labels would overlap, only the label with the highest priority is drawn. The choice is made once per frame, so
-/// that both eyes show the same labels. Text runs left to right with kerning, without shaping. thread: main
+/// Draws texts right of their places, or left of them where they would reach over the limb: antialiased, with a dark
+/// halo, all of one size, at the depth of their markers. If labels would overlap, only the label with the highest
+/// priority is drawn. The choice is made once per frame, so that both eyes show the same labels. Texts of any script
+/// are shaped (TextShaper) once, and their lines are kept. thread: main
 class LabelPass {
  public:
   /// Limits: labels looked at, highest priority first, and characters per label.
@@ -59,6 +64,8 @@ class LabelPass {
   void place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers, ShownLabels& shown);
   /// Returns the draw calls made.
   [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
+  /// Letters of labels that no font has, so far.
+  [[nodiscard]] const std::set<char32_t>& without_font() const { return shaper_->without_font(); }
 
  private:
   struct Character {
@@ -66,9 +73,10 @@ class LabelPass {
     glm::vec2 offset_px;  ///< offset of the picture's lower left corner from the place, y up
     std::array<short, 4> atlas_px;
     ObjectColor color;
+    float depth_share;  ///< share of the place's depth at which the text lies
   };
   struct Line {
-    std::vector<std::pair<Glyph, float>> glyphs;  ///< glyphs, each with the pen's position
+    std::vector<std::pair<Glyph, glm::vec2>> glyphs;  ///< glyphs, each with its origin, right of and above the pen
     float width_px = 0.0F;
   };
   /// A label of a layer.
@@ -79,14 +87,16 @@ class LabelPass {
 
   LabelPass() = default;
   void set_up_array();
-  [[nodiscard]] Line line_of(const std::u32string& text);
+  [[nodiscard]] const Line& line_of(const std::u32string& text);
   [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
   void merge(std::span<const DrawnLayer> layers);
-  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, float right_px);
+  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, float left_px, float depth_share);
 
   gl::Program program_;
   gl::VertexArray array_;
+  std::unique_ptr<TextShaper> shaper_;
   std::unique_ptr<GlyphAtlas> atlas_;
+  std::unordered_map<std::u32string, Line> lines_;               ///< lines of texts that were shown
   std::vector<LabelRef> order_;                                  ///< labels in the order of placing
   std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;

@@ -71,6 +71,10 @@ Status ObjectPass::prepare() {
   return Done{};
 }
 
+std::u32string ObjectPass::without_font() const {
+  return labels_ ? std::u32string(labels_->without_font().begin(), labels_->without_font().end()) : std::u32string();
+}
+
 void ObjectPass::upload() {
   std::vector<DrawnLayer> on_gpu;
   for (const DrawnLayer& layer : given_) {

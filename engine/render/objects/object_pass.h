@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -39,6 +40,8 @@ class ObjectPass {
 
   /// Sets the font of labels, the bytes of a font file. Without a font, no labels are drawn.
   void set_label_font(std::vector<std::byte> font) { font_ = std::move(font); }
+  /// Letters of labels that no font has, so far, in ascending order.
+  [[nodiscard]] std::u32string without_font() const;
   /// Chooses the labels of a frame, which `shown` remembers. Before the first call, no labels are drawn.
   void place_labels(const View& view, const LabelSight& sight, ShownLabels& shown) {
     if (labels_) labels_->place(view, sight, layers_, shown);

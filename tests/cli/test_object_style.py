@@ -1,0 +1,61 @@
+"""--object-style: features have the colours, widths and texts that a style computes from their fields."""
+
+import json
+import unittest
+
+import png
+from program import FAILED, WRONG_USAGE, ProgramTest
+
+VIEW = ("--camera", "0,0,4000000", "--size", "200x150", "--unlit", "--sky", "off", "--cache", "off")
+MIDDLE = (100, 75)
+BY_PEOPLE = {"fill": ["interpolate", ["linear"], ["get", "people"], 0, "#000000", 100, "#ff8000"], "fill-opacity": 1,
+             "stroke-width": 0}
+
+
+def square(people):
+    return {"type": "Feature", "properties": {"people": people, "fill": "#0000ff"},
+            "geometry": {"type": "Polygon", "coordinates": [[[-9, -9], [9, -9], [9, 9], [-9, 9], [-9, -9]]]}}
+
+
+class ObjectStyle(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("f.geojson", json.dumps(square(50)).encode())
+
+    def drawn(self, style):
+        self.write("style.json", json.dumps(style).encode())
+        self.assert_done("render", "--objects", "f.geojson", "--object-style", "style.json", "-o", "out.png", *VIEW)
+        return png.pixel(png.read(self.folder / "out.png"), *MIDDLE)
+
+    def test_an_area_has_the_colour_of_its_field(self):
+        # The mean of black and #ff8000, within the rounding of colours.
+        for channel, expected in zip(self.drawn(BY_PEOPLE), (128, 64, 0)):
+            self.assertAlmostEqual(channel, expected, delta=1)
+        kinds = {**BY_PEOPLE, "fill": ["match", ["get", "people"], 50, "#00ff00", "#ff0000"]}
+        self.assertEqual(self.drawn(kinds), (0, 255, 0))
+
+    def test_without_a_style_the_feature_has_its_own(self):
+        self.write("own.geojson", json.dumps(square(50)).encode())
+        self.assertEqual(self.drawn({"fill-opacity": 1, "stroke-width": 0}), (0, 0, 255), "what the style leaves alone")
+
+    def test_a_faulty_style_is_refused_with_a_cure(self):
+        faults = {
+            '{"colour": "#fff"}': ["style.json", '"colour"', "there are"],
+            '{"fill": ["zoom"]}': ["style.json", '"fill"', '"zoom"', "interpolate"],
+            "{": ["style.json"],
+        }
+        for text, says in faults.items():
+            self.write("style.json", text.encode())
+            self.assert_fails(FAILED, "render", "--objects", "f.geojson", "--object-style", "style.json", "-o", "no.png",
+                              *VIEW, says=says)
+            self.assertFalse((self.folder / "no.png").exists())
+
+    def test_it_needs_a_file_and_objects(self):
+        self.assert_fails(FAILED, "render", "--objects", "f.geojson", "--object-style", "nowhere.json", "-o", "no.png",
+                          *VIEW, says=["nowhere.json"])
+        self.assert_fails(WRONG_USAGE, "render", "--object-style", "style.json", "-o", "no.png", *VIEW,
+                          says=["--object-style", "--objects"])
+
+
+if __name__ == "__main__":
+    unittest.main()

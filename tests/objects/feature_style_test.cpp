@@ -1,0 +1,184 @@
+#include "streaming/objects/feature_style.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "streaming/objects/geojson_objects.h"
+#include "streaming/objects/style_rules.h"
+
+namespace terrella {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+FeatureStyle style_of(const std::string& text) {
+  auto style = FeatureStyle::parse(text, "s.json");
+  EXPECT_TRUE(style) << style.error().message;
+  return style ? *std::move(style) : *FeatureStyle::parse("{}", "s.json");
+}
+
+/// The value that an expression gives a property.
+json value_of(const std::string& expression, const json& fields) {
+  return applied(style_of(R"({"title":)" + expression + "}"), fields).at("title");
+}
+
+TEST(FeatureStyle, AFieldOrAFixedValueTakesThePlaceOfAProperty) {
+  const FeatureStyle style = style_of(R"({"title":["get","city"],"stroke-width":3,"line-color":"#f00"})");
+  EXPECT_EQ(applied(style, {{"city", "Bern"}, {"title", "old"}, {"stroke-width", 9}}),
+            (json{{"city", "Bern"}, {"title", "Bern"}, {"stroke-width", 3}, {"stroke", "#f00"}}));
+  EXPECT_TRUE(applied(style, json()).at("title").is_null()) << "a feature without properties";
+}
+
+TEST(FeatureStyle, Categories) {
+  const std::string kinds = R"(["match",["get","kind"],"road","#111",["river","lake"],"#00f",7,"#777","#fff"])";
+  EXPECT_EQ(value_of(kinds, {{"kind", "road"}}), "#111");
+  EXPECT_EQ(value_of(kinds, {{"kind", "lake"}}), "#00f");
+  EXPECT_EQ(value_of(kinds, {{"kind", 7}}), "#777");
+  EXPECT_EQ(value_of(kinds, {{"kind", "path"}}), "#fff");
+  EXPECT_EQ(value_of(kinds, json::object()), "#fff");
+}
+
+TEST(FeatureStyle, StepsBeginAtTheirStops) {
+  const std::string steps = R"(["step",["get","v"],"low",10,"middle",20,"high"])";
+  for (const auto& [value, expected] : std::vector<std::pair<json, json>>{{-1e300, "low"},
+                                                                          {9.999, "low"},
+                                                                          {10, "middle"},
+                                                                          {19.9, "middle"},
+                                                                          {20, "high"},
+                                                                          {1e300, "high"},
+                                                                          {"15", "middle"}}) {
+    EXPECT_EQ(value_of(steps, {{"v", value}}), expected) << value;
+  }
+  EXPECT_TRUE(value_of(steps, {{"v", "many"}}).is_null()) << "no number";
+  EXPECT_TRUE(value_of(steps, {{"v", true}}).is_null());
+}
+
+TEST(FeatureStyle, NumbersAndColoursBetweenStops) {
+  const auto number = [](double v) {
+    return value_of(R"(["interpolate",["linear"],["get","v"],0,1,10,3,20,13])", {{"v", v}}).get<double>();
+  };
+  EXPECT_DOUBLE_EQ(number(-5), 1.0);
+  EXPECT_DOUBLE_EQ(number(0), 1.0);
+  EXPECT_DOUBLE_EQ(number(5), 2.0);
+  EXPECT_DOUBLE_EQ(number(15), 8.0);
+  EXPECT_DOUBLE_EQ(number(99), 13.0);
+  // MapLibre's definition: (base^(v - low) - 1) / (base^(high - low) - 1), here (4 - 1) / (16 - 1).
+  EXPECT_DOUBLE_EQ(value_of(R"(["interpolate",["exponential",2],["get","v"],0,0,4,15])", {{"v", 2}}).get<double>(),
+                   3.0);
+  const std::string colors = R"(["interpolate",["linear"],["get","v"],0,"#000",1,"#ff8000"])";
+  EXPECT_EQ(value_of(colors, {{"v", 0}}), "#000000");
+  EXPECT_EQ(value_of(colors, {{"v", 0.5}}), "#804000");
+  EXPECT_EQ(value_of(colors, {{"v", 1}}), "#ff8000");
+  EXPECT_TRUE(value_of(R"(["interpolate",["linear"],["get","v"],0,"red",1,"#fff"])", {{"v", 0.5}}).is_null());
+}
+
+TEST(FeatureStyle, TextsOfSeveralFields) {
+  EXPECT_EQ(value_of(R"x(["concat",["get","name"]," (",["get","n"],")"])x", {{"name", "Αθήνα"}, {"n", 3}}),
+            "Αθήνα (3)");
+  EXPECT_EQ(value_of(R"(["coalesce",["get","name:en"],["get","name"],"?"])", {{"name", "Wien"}}), "Wien");
+  EXPECT_EQ(value_of(R"(["coalesce",["get","a"],"?"])", {{"a", nullptr}}), "?");
+}
+
+TEST(FeatureStyle, FaultsAreNamedWithACure) {
+  const std::vector<std::pair<const char*, const char*>> faults = {
+      {"[]", "s.json"},
+      {"{", "s.json"},
+      {R"({"colour":"#fff"})", "unknown property \"colour\"; there are"},
+      {R"({"fill":"#fff","fill-color":"#000"})", "\"fill\" is there twice"},
+      {R"({"fill":["zoom"]})", "unknown expression \"zoom\"; there are get"},
+      {R"({"fill":["get"]})", "the name of one field"},
+      {R"({"fill":["get",["get","a"]]})", "the name of one field"},
+      {R"({"fill":["match",["get","a"],"b","#fff"]})", "and a default"},
+      {R"({"fill":["step",["get","a"],"#fff",1]})", "pairs of a stop"},
+      {R"({"fill":["step",["get","a"],"#fff","1","#000"]})", "must be numbers"},
+      {R"({"fill":["interpolate",["cubic"],["get","a"],1,"#fff"]})", "[\"linear\"]"},
+      {R"({"fill":["interpolate",["linear"],["get","a"],1,"#fff",1,"#000"]})", "must rise"},
+      {R"({"fill":["interpolate",["linear"],["get","a"],1,"#fff",2]})", "pairs of a stop"},
+      {R"({"fill":["coalesce",["coalesce",["what"]]]})", "unknown expression \"what\""},
+  };
+  for (const auto& [text, expected] : faults) {
+    const auto style = FeatureStyle::parse(text, "s.json");
+    ASSERT_FALSE(style) << text;
+    EXPECT_THAT(style.error().message, HasSubstr(expected)) << text;
+    EXPECT_THAT(style.error().message, HasSubstr("s.json"));
+  }
+  const auto missing = FeatureStyle::load("no/such/style.json");
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message, HasSubstr("no/such/style.json"));
+}
+
+constexpr const char* kDistricts = R"({"type":"FeatureCollection","features":[
+  {"type":"Feature","properties":{"pop":0,"fill":"#123456"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]}},
+  {"type":"Feature","properties":{"pop":100},"geometry":null},
+  {"type":"Feature","properties":{"pop":50},"geometry":{"type":"Polygon","coordinates":[[[2,0],[3,0],[3,1],[2,0]]]}},
+  {"type":"Feature","properties":{"name":"Bern","pop":75},"geometry":{"type":"Point","coordinates":[7,47]}},
+  {"type":"Feature","properties":{"pop":25},"geometry":{"type":"LineString","coordinates":[[0,0],[5,5]]}}]})";
+
+ObjectFile read(const FeatureStyle* style) {
+  std::istringstream text(kDistricts);
+  auto file = parse_geojson_objects(text, "f.geojson", {}, ObjectId{1}, style);
+  EXPECT_TRUE(file);
+  return file ? *std::move(file) : ObjectFile{};
+}
+
+const std::string kByPeople = R"({"fill":["interpolate",["linear"],["get","pop"],0,"#000000",100,"#ff0000"],
+  "fill-opacity":1,"marker-color":["step",["get","pop"],"#00f",60,"#0f0"],"marker-size":["step",["get","pop"],7,60,75],
+  "stroke-width":["match",["get","pop"],25,7,1],"extrude_m":["get","pop"]})";
+
+TEST(FeatureStyle, ObjectsAreReadInAStyle) {
+  const FeatureStyle style = style_of(kByPeople);
+  const ObjectFile file = read(&style);
+  EXPECT_TRUE(file.complaints.empty());
+  ASSERT_EQ(file.scene.polygons.size(), 2U);
+  EXPECT_EQ(file.scene.polygons[0].fill, (ObjectColor{0, 0, 0})) << "in place of its own fill";
+  EXPECT_EQ(file.scene.polygons[1].fill, (ObjectColor{128, 0, 0}));
+  EXPECT_EQ(file.scene.polygons[1].extrude_m, 50.0);
+  EXPECT_EQ(file.scene.points[0].color, (ObjectColor{0, 255, 0}));
+  EXPECT_EQ(file.scene.points[0].size_px, 75.0F);
+  EXPECT_EQ(file.scene.lines[0].width_px, 7.0F);
+  EXPECT_EQ(file.scene.polygons[0].of.feature->properties, R"({"fill":"#123456","pop":0})")
+      << "a pick tells the fields";
+}
+
+/// The truth is the file read again in the other style.
+TEST(FeatureStyle, AnotherStyleByEditsIsThatOfReadingAgain) {
+  const FeatureStyle style = style_of(kByPeople);
+  const ObjectFile again = read(&style);
+  const auto edits = restyled(features_of(read(nullptr).scene), style);
+  ASSERT_EQ(edits.changes.size(), 4U);
+  EXPECT_EQ(edits.changes[0].fill, again.scene.polygons[0].fill);
+  EXPECT_EQ(edits.changes[1].id, ObjectId{3});
+  EXPECT_EQ(edits.changes[1].fill, again.scene.polygons[1].fill);
+  EXPECT_EQ(edits.changes[1].color, again.scene.polygons[1].stroke);
+  EXPECT_EQ(edits.changes[2].color, again.scene.points[0].color);
+  EXPECT_EQ(edits.changes[2].size_px, again.scene.points[0].size_px);
+  EXPECT_EQ(edits.changes[2].label, again.scene.labels[0].color);
+  EXPECT_EQ(edits.changes[3].size_px, again.scene.lines[0].width_px);
+  ASSERT_EQ(edits.texts.size(), 1U);
+  EXPECT_EQ(edits.texts[0].text, "Bern");
+}
+
+TEST(FeatureStyle, ValuesBelongToTheFeaturesOfTheirNumbers) {
+  const FeatureStyle style = style_of(R"({"fill":["interpolate",["linear"],["get","value"],0,"#000000",1,"#ffffff"]})");
+  const std::vector<double> values = {0.2, 1.0, 0.4, 0.0, std::numeric_limits<double>::quiet_NaN()};
+  const auto edits = restyled(features_of(read(nullptr).scene), style, values);
+  EXPECT_EQ(edits.changes[0].fill->red, 51);
+  EXPECT_EQ(edits.changes[1].fill->red, 102) << "the second feature has no place, and its value is nobody's";
+  const auto none = restyled(features_of(read(nullptr).scene), style);
+  EXPECT_EQ(none.changes[0].fill->red, 0x55) << "no value: simplestyle's default";
+}
+
+TEST(FeatureStyle, AWidthOfNothingHidesALine) {
+  const auto edits = restyled(features_of(read(nullptr).scene), style_of(R"({"stroke-width":0})"));
+  EXPECT_EQ(edits.changes[3].color->alpha, 0);
+  EXPECT_FALSE(edits.changes[3].size_px);
+}
+
+}  // namespace
+}  // namespace terrella
