@@ -166,6 +166,7 @@ void load_panel_fonts(float scale) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   std::vector<ImVector<ImWchar>> ranges;
+  ranges.reserve(fonts.size());
   for (const PanelFont& font : fonts) ranges.push_back(ranges_of(font.letters, &font == &fonts.front()));
   add_first_font(atlas, scale, ranges.front());
   for (std::size_t k = 1; k < fonts.size(); ++k) {
