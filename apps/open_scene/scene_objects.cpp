@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "apps/open_scene/sky_data.h"
@@ -39,13 +38,13 @@ void add_label_font(GlobeOptions& options) {
 
 Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
   if (options.objects.empty()) return true;
-  std::optional<FeatureStyle> style;
+  FeatureStyle style;
   if (!options.object_style.empty()) {
     Result<FeatureStyle> loaded = FeatureStyle::load(options.object_style);
     if (!loaded) return loaded.error();
     style = *std::move(loaded);
   }
-  const Result<ObjectFile> file = read_objects(options.objects, ObjectId{1}, style ? &*style : nullptr);
+  const Result<ObjectFile> file = read_objects(options.objects, ObjectId{1}, style);
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);

@@ -66,16 +66,15 @@ FeatureStyle style_of(const py::object& style) {
 
 /// A path, or anything that json.dumps() writes, or that has __geo_interface__ (shapely, geopandas).
 ObjectFile objects_of(const py::object& geojson, const py::object& style) {
-  std::optional<FeatureStyle> look;
-  if (!style.is_none()) look = style_of(style);
+  const FeatureStyle look = style.is_none() ? FeatureStyle() : style_of(style);
   Result<ObjectFile> file = Error{};
   if (is_path(geojson)) {
-    file = read_objects(py::str(geojson).cast<std::string>(), ObjectId{1}, look ? &*look : nullptr);
+    file = read_objects(py::str(geojson).cast<std::string>(), ObjectId{1}, look);
   } else {
     const py::object plain =
         py::hasattr(geojson, "__geo_interface__") ? py::object(geojson.attr("__geo_interface__")) : geojson;
     std::istringstream text(dumped(plain));
-    file = parse_geojson_objects(text, "objects", {}, ObjectId{1}, look ? &*look : nullptr);
+    file = parse_geojson_objects(text, "objects", {}, ObjectId{1}, look);
   }
   ObjectFile read = value_or_raise(std::move(file));
   if (!read.complaints.empty()) conclude({.exit_code = kDoneInPart, .result = {}, .messages = read.complaints});

@@ -18,9 +18,9 @@ std::u32string code_points(std::string_view utf8) {
     char32_t point = length == 0 ? first : first & (0x7FU >> length);
     std::size_t read = 1;
     for (; read < length && k + read < utf8.size(); ++read) {
-      const auto next = static_cast<unsigned char>(utf8[k + read]);
-      if ((next & 0xC0U) != 0x80U) break;
-      point = point << 6U | (next & 0x3FU);
+      const char next = utf8[k + read];
+      if (!is_within_character(next)) break;
+      point = point << 6U | (static_cast<unsigned char>(next) & 0x3FU);
     }
     const bool is_character = point <= 0x10FFFF && (point < 0xD800 || point > 0xDFFF);
     const bool whole = length == 0 || (length >= 2 && length <= 4 && read == length && is_character);

@@ -26,7 +26,11 @@ class FeatureStyle {
   [[nodiscard]] static Result<FeatureStyle> parse(std::string_view text, const std::string& where);
   [[nodiscard]] static Result<FeatureStyle> load(const std::filesystem::path& file);
 
+  /// True for no style, the default: features are drawn by their own properties.
+  [[nodiscard]] bool is_none() const { return rules_ == nullptr; }
+
   struct Rules;  ///< checked expressions, not public
+  /// Not for no style.
   [[nodiscard]] const Rules& rules() const { return *rules_; }
 
  private:

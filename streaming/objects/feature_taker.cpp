@@ -40,12 +40,14 @@ void FeatureTaker::take(const json& feature, std::size_t index) {
   if (geometry == feature.end()) return complain("it has no \"geometry\"");
   if (geometry->is_null()) return;
   const auto properties = feature.find("properties");
-  const json fields = properties == feature.end() ? json() : *properties;
-  ObjectStyle style = read_object_style(style_ != nullptr ? applied(*style_, fields) : fields, complain);
-  if (quakes_ && style_ == nullptr) style_quake(feature, style);
+  const json none = json::object();
+  const json& fields = properties == feature.end() ? none : *properties;
+  ObjectStyle style =
+      style_.is_none() ? read_object_style(fields, complain) : read_object_style(applied(style_, fields), complain);
+  if (quakes_ && style_.is_none()) style_quake(feature, style);
   const ObjectId id{static_cast<std::uint64_t>(first_) + index};
   file_.next = ObjectId{static_cast<std::uint64_t>(id) + 1};
-  name_feature(style, id, properties == feature.end() ? json::object() : *properties);
+  name_feature(style, id, fields);
   if (!style.icon.empty()) set_icon(style, complain);
   if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
   add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,

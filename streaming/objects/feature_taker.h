@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 
 #include "streaming/objects/feature_style.h"
 #include "streaming/objects/geojson_objects.h"
@@ -22,8 +23,8 @@ class FeatureTaker {
   void take(const nlohmann::json& feature, std::size_t index);
   /// Adds a complaint, or counts it if there are many.
   void complain_of(const std::string& what);
-  /// Draws further features in a style, which must outlive the taker; null: by their properties alone.
-  void set_style(const FeatureStyle* style) { style_ = style; }
+  /// Draws further features in a style.
+  void set_style(FeatureStyle style) { style_ = std::move(style); }
   /// Makes further features earthquakes of a catalogue.
   void expect_quakes() { quakes_ = true; }
 
@@ -35,7 +36,7 @@ class FeatureTaker {
   IconShelf icons_;
   ObjectId first_;
   ObjectFile& file_;
-  const FeatureStyle* style_ = nullptr;
+  FeatureStyle style_;
   bool quakes_ = false;
 };
 

@@ -20,7 +20,7 @@ using nlohmann::json;
 class DocumentTaker {
  public:
   DocumentTaker(const std::string& where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file,
-                const FeatureStyle* style)
+                const FeatureStyle& style)
       : features_(where, folder, first, file), file_(file) {
     features_.set_style(style);
   }
@@ -69,7 +69,7 @@ Status take_rest(const json& document, DocumentTaker& taker) {
 
 Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
                                          const std::filesystem::path& folder, ObjectId first,
-                                         const FeatureStyle* style) {
+                                         const FeatureStyle& style) {
   ObjectFile file;
   DocumentTaker taker(where, folder, first, file, style);
   const auto broken = [&](const std::string& what) -> Result<ObjectFile> {
@@ -85,7 +85,7 @@ Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& 
   return file;
 }
 
-Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
+Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle& style) {
   std::error_code problem;
   const auto bytes = std::filesystem::file_size(path, problem);
   if (problem) return Error{fmt::format("{}: {}", path.string(), problem.message())};

@@ -43,10 +43,9 @@ struct ObjectFile {
 /// not at all if it is empty. thread: any
 [[nodiscard]] Result<ObjectFile> parse_geojson_objects(std::istream& text, const std::string& where,
                                                        const std::filesystem::path& folder = {},
-                                                       ObjectId first = ObjectId{1},
-                                                       const FeatureStyle* style = nullptr);
+                                                       ObjectId first = ObjectId{1}, const FeatureStyle& style = {});
 /// Reads objects from a file.
 [[nodiscard]] Result<ObjectFile> read_geojson_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
-                                                      const FeatureStyle* style = nullptr);
+                                                      const FeatureStyle& style = {});
 
 }  // namespace terrella

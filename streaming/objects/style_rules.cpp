@@ -217,6 +217,7 @@ Result<FeatureStyle> FeatureStyle::load(const std::filesystem::path& file) {
 
 json applied(const FeatureStyle& style, const json& fields) {
   json result = fields.is_object() ? fields : json::object();
+  if (style.is_none()) return result;
   const Evaluation evaluation(fields);
   for (const auto& [name, said] : style.rules().properties.items()) result[name] = evaluation.value(said);
   return result;

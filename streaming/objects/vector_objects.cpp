@@ -154,7 +154,7 @@ class LayerReader {
 
 bool is_vector_file(const std::filesystem::path& path) { return vector_driver_of(path) != nullptr; }
 
-Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
+Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle& style) {
   const auto opened = open_vector_file(path);
   if (!opened) return opened.error();
   const GdalSettings settings(vector_settings());
@@ -168,7 +168,7 @@ Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, Object
   return Error{why};
 }
 
-Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle* style) {
+Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first, const FeatureStyle& style) {
   return is_vector_file(path) ? read_vector_objects(path, first, style) : read_geojson_objects(path, first, style);
 }
 

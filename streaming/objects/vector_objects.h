@@ -24,11 +24,11 @@ inline constexpr std::size_t kMaxVectorUnpackedBytes = 256UL << 20;
 ///
 /// Faulty features are skipped with a complaint. Fails if the file is too long, or no vector file. Blocks. thread: any
 [[nodiscard]] Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
-                                                     const FeatureStyle* style = nullptr);
+                                                     const FeatureStyle& style = {});
 
 /// Reads a vector file or, for any other name, a GeoJSON file; with a style, in place of what the properties of its
 /// features say. Blocks. thread: any
 [[nodiscard]] Result<ObjectFile> read_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
-                                              const FeatureStyle* style = nullptr);
+                                              const FeatureStyle& style = {});
 
 }  // namespace terrella

@@ -1,14 +1,13 @@
 // Edits of single objects: what they change, what they leave alone, and what they cost, counted.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "tests/facade/geodetic_at.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
+#include "tests/support/label_font.h"
 
 namespace terrella::test {
 namespace {
@@ -48,6 +47,14 @@ class LivingObjects : public GlTest {
   void TearDown() override {
     globe_.reset();
     GlTest::TearDown();
+  }
+  /// Takes another globe, with labels, which are not drawn without light.
+  void use_labels(double height_m) {
+    GlobeOptions options = unlit_options();
+    options.unlit = false;
+    options.label_font = label_font();
+    globe_ = *Globe::create(options);
+    globe_->set_camera(camera_at(0, 0, height_m));
   }
   std::vector<std::uint8_t> pixels() {
     settle(*globe_, kLiving);
@@ -197,20 +204,9 @@ TEST_F(LivingObjects, APickReturnsTheFeature) {
   EXPECT_EQ(pick(at(0, 0)).object->of.id, ObjectId{2});
 }
 
-std::vector<std::byte> label_font() {
-  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
-  std::vector<std::byte> bytes;
-  for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte) bytes.push_back(std::byte(*byte));
-  return bytes;
-}
-
 // Towards the middle of the disc the ground is nearer to the eye than the label's place: it must not hide the text.
 TEST_F(LivingObjects, ALabelIsWholeNearTheLimb) {
-  GlobeOptions options = unlit_options();
-  options.unlit = false;  // without light no labels are drawn
-  options.label_font = label_font();
-  globe_ = *Globe::create(options);
-  globe_->set_camera(camera_at(0, 0, 1.4e7));
+  use_labels(1.4e7);
   constexpr Viewport kLarge{480, 360};
   const auto ink = [&](double lat_deg, double lon_deg) {
     const LayerId layer = *globe_->add_objects(
@@ -237,11 +233,7 @@ TEST_F(LivingObjects, ALabelIsWholeNearTheLimb) {
 
 // A label is drawn to the right of its marker. It moves with the marker, and is picked by its text.
 TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
-  GlobeOptions options = unlit_options();
-  options.unlit = false;  // without light no labels are drawn
-  options.label_font = label_font();
-  globe_ = *Globe::create(options);
-  globe_->set_camera(camera_at(0, 0, 5.0e6));
+  use_labels(5.0e6);
   const LayerId layer =
       *globe_->add_objects({.points = {marker(1, at(0, 0))},
                             .labels = {{.text = "WW", .place = at(0, 0), .size_px = 9.0F, .of = named(1)}}});

@@ -120,7 +120,7 @@ constexpr const char* kDistricts = R"({"type":"FeatureCollection","features":[
   {"type":"Feature","properties":{"name":"Bern","pop":75},"geometry":{"type":"Point","coordinates":[7,47]}},
   {"type":"Feature","properties":{"pop":25},"geometry":{"type":"LineString","coordinates":[[0,0],[5,5]]}}]})";
 
-ObjectFile read(const FeatureStyle* style) {
+ObjectFile read(const FeatureStyle& style) {
   std::istringstream text(kDistricts);
   auto file = parse_geojson_objects(text, "f.geojson", {}, ObjectId{1}, style);
   EXPECT_TRUE(file);
@@ -133,7 +133,7 @@ const std::string kByPeople = R"({"fill":["interpolate",["linear"],["get","pop"]
 
 TEST(FeatureStyle, ObjectsAreReadInAStyle) {
   const FeatureStyle style = style_of(kByPeople);
-  const ObjectFile file = read(&style);
+  const ObjectFile file = read(style);
   EXPECT_TRUE(file.complaints.empty());
   ASSERT_EQ(file.scene.polygons.size(), 2U);
   EXPECT_EQ(file.scene.polygons[0].fill, (ObjectColor{0, 0, 0})) << "in place of its own fill";
@@ -149,8 +149,8 @@ TEST(FeatureStyle, ObjectsAreReadInAStyle) {
 /// The truth is the file read again in the other style.
 TEST(FeatureStyle, AnotherStyleByEditsIsThatOfReadingAgain) {
   const FeatureStyle style = style_of(kByPeople);
-  const ObjectFile again = read(&style);
-  const auto edits = restyled(features_of(read(nullptr).scene), style);
+  const ObjectFile again = read(style);
+  const auto edits = restyled(features_of(read({}).scene), style);
   ASSERT_EQ(edits.changes.size(), 4U);
   EXPECT_EQ(edits.changes[0].fill, again.scene.polygons[0].fill);
   EXPECT_EQ(edits.changes[1].id, ObjectId{3});
@@ -167,15 +167,15 @@ TEST(FeatureStyle, AnotherStyleByEditsIsThatOfReadingAgain) {
 TEST(FeatureStyle, ValuesBelongToTheFeaturesOfTheirNumbers) {
   const FeatureStyle style = style_of(R"({"fill":["interpolate",["linear"],["get","value"],0,"#000000",1,"#ffffff"]})");
   const std::vector<double> values = {0.2, 1.0, 0.4, 0.0, std::numeric_limits<double>::quiet_NaN()};
-  const auto edits = restyled(features_of(read(nullptr).scene), style, values);
+  const auto edits = restyled(features_of(read({}).scene), style, values);
   EXPECT_EQ(edits.changes[0].fill->red, 51);
   EXPECT_EQ(edits.changes[1].fill->red, 102) << "the second feature has no place, and its value is nobody's";
-  const auto none = restyled(features_of(read(nullptr).scene), style);
+  const auto none = restyled(features_of(read({}).scene), style);
   EXPECT_EQ(none.changes[0].fill->red, 0x55) << "no value: simplestyle's default";
 }
 
 TEST(FeatureStyle, AWidthOfNothingHidesALine) {
-  const auto edits = restyled(features_of(read(nullptr).scene), style_of(R"({"stroke-width":0})"));
+  const auto edits = restyled(features_of(read({}).scene), style_of(R"({"stroke-width":0})"));
   EXPECT_EQ(edits.changes[3].color->alpha, 0);
   EXPECT_FALSE(edits.changes[3].size_px);
 }

@@ -2,25 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <random>
 #include <tuple>
 
 #include "object_canvas.h"
+#include "tests/support/label_font.h"
 
 namespace terrella::test {
 namespace {
 
 constexpr ObjectColor kYellow{250, 250, 0};
-
-std::vector<std::byte> font_bytes() {
-  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  return {bytes, bytes + text.size()};
-}
 
 LabelObject label(const std::string& text, double lat_deg, double lon_deg, ObjectColor color = kYellow) {
   return {.text = text, .place = {.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg)}, .color = color};
@@ -56,7 +48,7 @@ class LabelPassTest : public ObjectCanvas {
  protected:
   void SetUp() override {
     ObjectCanvas::SetUp();
-    font_ = font_bytes();
+    font_ = label_font();
     use(DepthMode::reversed, {200, 200});
   }
 };

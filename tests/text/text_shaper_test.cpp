@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <set>
 #include <string>
+#include <vector>
+
+#include "tests/support/label_font.h"
 
 // Fontconfig loses 288 bytes when it reads its configuration, once in a process. LeakSanitizer asks this function.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
@@ -19,17 +21,10 @@ namespace {
 constexpr int kSize_px = 15;             // size of labels
 constexpr char32_t kPrivate = 0x10FFFD;  // the last character for private use: no font has it
 
-std::vector<std::byte> bundled_font() {
-  std::ifstream file(TERRELLA_DATA_FOLDER "/fonts/DejaVuSans.ttf", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  return {bytes, bytes + text.size()};
-}
-
 class TextShaperTest : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = TextShaper::create(bundled_font(), kSize_px);
+    auto made = TextShaper::create(test::label_font(), kSize_px);
     ASSERT_TRUE(made) << made.error().message;
     shaper_ = std::move(*made);
   }
@@ -175,7 +170,7 @@ TEST_F(TextShaperTest, LinesHaveTheHeightOfTheGivenFont) {
 }
 
 TEST(TextShaper, ABrokenFontIsNamed) {
-  std::vector<std::byte> cut = bundled_font();
+  std::vector<std::byte> cut = test::label_font();
   cut.resize(100);
   for (const std::vector<std::byte>& font : {cut, std::vector<std::byte>{}, std::vector(1000, std::byte{'x'})}) {
     const auto made = TextShaper::create(font, kSize_px);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "base/code_points.h"
 #include "base/number.h"
 
 namespace terrella {
@@ -65,7 +66,7 @@ std::string without_markup(const std::string& text) {
 std::string shortened(std::string text) {
   if (text.size() <= kMostFieldBytes) return text;
   std::size_t end = kMostFieldBytes;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  while (end > 0 && is_within_character(text[end])) --end;
   text.resize(end);
   return text + " ...";
 }

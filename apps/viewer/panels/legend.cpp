@@ -8,6 +8,7 @@
 
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "base/code_points.h"
 
 namespace terrella {
 namespace {
@@ -57,7 +58,7 @@ std::string shortened(std::string text, float most) {
   while (!text.empty() && ImGui::CalcTextSize((text + "...").c_str()).x > most) {
     do {
       text.pop_back();
-    } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
+    } while (!text.empty() && is_within_character(text.back()));
   }
   return text + "...";
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/viewer/panels/panel_fonts.h"
+#include "base/code_points.h"
 
 namespace terrella {
 namespace {
@@ -29,9 +30,6 @@ void begin_fixed(const char* name, ImVec2 at, ImVec2 pivot, ImVec2 inner) {
 namespace {
 
 bool cross_clicked = false;  // by the cross of the panel that is being drawn; there is one mouse
-
-/// True for a byte within a letter.
-bool is_inside(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 bool pressed_enter() {
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
@@ -67,7 +65,7 @@ std::string wrapped(const std::string& text, float widest) {
   std::string lines;
   while (from < end) {
     const char* to = font.CalcWordWrapPositionA(ImGui::GetFontSize() / font.FontSize, from, end, widest);
-    to = std::max(to, std::find_if_not(from + 1, end, is_inside));
+    to = std::max(to, std::find_if_not(from + 1, end, is_within_character));
     lines.append(lines.empty() ? "" : "\n").append(from, to);
     from = std::find_if(to, end, [](char c) { return c != ' '; });
   }
@@ -84,7 +82,7 @@ std::string end_of(const std::string& text, float widest) {
   const auto fits = [widest](const std::string& one) { return ImGui::CalcTextSize(one.c_str()).x <= widest; };
   if (fits(text)) return text;
   for (std::size_t from = 1; from < text.size(); ++from) {
-    if (is_inside(text[from])) continue;
+    if (is_within_character(text[from])) continue;
     if (std::string end = "..." + text.substr(from); fits(end)) return end;
   }
   return "...";

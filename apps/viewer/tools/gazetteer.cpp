@@ -75,19 +75,24 @@ void mark(const nlohmann::json& json, const char* list, bool NamedPlace::*what, 
   }
 }
 
+/// Name and place of the columns `name`, `lat` and `lon` in a row. Throws nlohmann::json::exception.
+NamedPlace place_of_row(const nlohmann::json& columns, std::size_t row) {
+  NamedPlace place{.name = columns.at("name").at(row).get<std::string>()};
+  place.folded = folded(place.name);
+  place.place = {.lat = Angle::degrees(columns.at("lat").at(row).get<double>()),
+                 .lon = Angle::degrees(columns.at("lon").at(row).get<double>())};
+  return place;
+}
+
 /// Places of the columns `name`, `country`, `people`, `lat` and `lon`. Throws
 /// nlohmann::json::exception.
 std::vector<NamedPlace> places_of_columns(const nlohmann::json& json) {
-  const auto &names = json.at("name"), &codes = json.at("country"), &countries = json.at("countries");
+  const auto &codes = json.at("country"), &countries = json.at("countries");
   std::vector<NamedPlace> places;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    NamedPlace place{.name = names[k].get<std::string>(),
-                     .country = countries.at(codes.at(k).get<std::string>()).get<std::string>(),
-                     .people = json.at("people").at(k).get<double>()};
-    place.folded = folded(place.name);
-    place.place = {.lat = Angle::degrees(json.at("lat").at(k).get<double>()),
-                   .lon = Angle::degrees(json.at("lon").at(k).get<double>())};
-    places.push_back(std::move(place));
+  for (std::size_t k = 0; k < json.at("name").size(); ++k) {
+    NamedPlace& place = places.emplace_back(place_of_row(json, k));
+    place.country = countries.at(codes.at(k).get<std::string>()).get<std::string>();
+    place.people = json.at("people").at(k).get<double>();
   }
   mark(json, "capitals", &NamedPlace::is_capital, places);
   mark(json, "parts", &NamedPlace::is_part, places);
@@ -106,12 +111,8 @@ Result<nlohmann::json> read_object(const std::filesystem::path& file) {
 std::vector<NamedPlace> countries_of(const nlohmann::json& columns) {
   std::vector<NamedPlace> countries;
   for (std::size_t k = 0; k < columns.at("name").size(); ++k) {
-    NamedPlace country{.name = columns.at("name").at(k).get<std::string>(),
-                       .area_km2 = columns.at("km2").at(k).get<double>()};
-    country.folded = folded(country.name);
-    country.place = {.lat = Angle::degrees(columns.at("lat").at(k).get<double>()),
-                     .lon = Angle::degrees(columns.at("lon").at(k).get<double>())};
-    countries.push_back(std::move(country));
+    NamedPlace& country = countries.emplace_back(place_of_row(columns, k));
+    country.area_km2 = columns.at("km2").at(k).get<double>();
   }
   return countries;
 }

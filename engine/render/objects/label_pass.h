@@ -49,7 +49,7 @@ struct ShownLabels {
 };
 
 /// Draws texts right of their places, or left of them where they would reach over the limb: antialiased, with a dark
-/// halo, all of one size, at the depth of their markers. If labels would overlap, only the label with the highest
+/// halo, all of one size, before the ground that they cover. If labels would overlap, only the label with the highest
 /// priority is drawn. The choice is made once per frame, so that both eyes show the same labels. Texts of any script
 /// are shaped (TextShaper) once, and their lines are kept. thread: main
 class LabelPass {
