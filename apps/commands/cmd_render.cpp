@@ -118,7 +118,8 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
   add_timeout_option(sub, command.scene.base.timeout_s,
                      "Wait at most this many seconds for the description of a server's tiles, and as long for tiles");
-  sub.add_flag("--legend", command.legend, "Draw a colour bar with units for each raster of numbers");
+  sub.add_flag("--legend", command.legend,
+               "Draw a colour bar with units for each raster of numbers, and the classes of --object-style");
   sub.add_flag("--graticule", command.graticule, "Draw lines of latitude and longitude with labels");
   sub.add_flag("--credits", command.credits, "Write the sources of imagery and map into the upper right corner");
   sub.add_flag("--json", command.json, "Print the result as one JSON object");

@@ -94,8 +94,8 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Sour
 }
 
 /// The globe's layers: heights, imagery from bottom to top, objects.
-std::vector<LayerRow> layer_rows(const OpenedScene& scene, const SceneOptions& options,
-                                 const std::optional<GeoRect>& part, const OpenedRasters& opened) {
+std::vector<LayerRow> layer_rows(OpenedScene& scene, const SceneOptions& options, const std::optional<GeoRect>& part,
+                                 const OpenedRasters& opened) {
   std::vector<LayerRow> rows;
   if (scene.heights) rows.push_back(heights_row(scene, options.elevation, opened));
   for (const SceneLayer& layer : scene.images) {
@@ -108,6 +108,7 @@ std::vector<LayerRow> layer_rows(const OpenedScene& scene, const SceneOptions& o
                     .name = std::filesystem::path(options.objects).filename().string(),
                     .bounds = {}});
     if (const auto attribution = scene.globe->attribution(id)) rows.back().attribution = *attribution;
+    rows.back().style = style_of_layer(std::move(scene.objects.features));
   }
   return rows;
 }
@@ -136,6 +137,7 @@ int view(const ViewOptions& options) {
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   SceneOptions wanted = options.scene;
   wanted.base.cuts = &cuts;
+  wanted.keep_features = true;
   auto opened = std::make_unique<OpenedRasters>();
   wanted.base.opened = opened.get();
   auto scene = open_scene(wanted, [&](const Body& body) -> Result<GlobeOptions> {

@@ -91,9 +91,9 @@ Result<OpenedScene> open_scene(SceneOptions options, const PrepareGlobe& prepare
   if (Status made = make_globe(scene, *prepared, *std::move(base), options.base.address); !made) return made.error();
   set_paper_texturing(*scene.globe, options);
   if (Status added = add_layers(scene, options); !added) return added.error();
-  const auto objects = add_objects(*scene.globe, options);
+  auto objects = add_objects(*scene.globe, options);
   if (!objects) return objects.error();
-  scene.all_objects = *objects;
+  scene.objects = *std::move(objects);
   return scene;
 }
 

@@ -7,6 +7,7 @@
 
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/scene_numbers.h"
+#include "apps/open_scene/scene_objects.h"
 #include "base/result.h"
 #include "globe/globe.h"
 
@@ -25,7 +26,7 @@ struct OpenedScene {
   TileSetInfo base{};                        ///< description of TILESET
   std::vector<SceneLayer> images{};          ///< lowest first
   std::optional<ElevationSource> heights{};  ///< none without --elevation
-  bool all_objects = true;                   ///< false if --objects has faults, which messages have named
+  SceneObjects objects{};                    ///< messages have named the faults of --objects
   std::unique_ptr<Globe> globe{};
 };
 

@@ -36,22 +36,24 @@ void add_label_font(GlobeOptions& options) {
   }
 }
 
-Result<bool> add_objects(Globe& globe, const SceneOptions& options) {
-  if (options.objects.empty()) return true;
-  FeatureStyle style;
+Result<SceneObjects> add_objects(Globe& globe, const SceneOptions& options) {
+  SceneObjects objects;
+  if (options.objects.empty()) return objects;
   if (!options.object_style.empty()) {
     Result<FeatureStyle> loaded = FeatureStyle::load(options.object_style);
     if (!loaded) return loaded.error();
-    style = *std::move(loaded);
+    objects.style = *std::move(loaded);
   }
-  const Result<ObjectFile> file = read_objects(options.objects, ObjectId{1}, style);
+  const Result<ObjectFile> file = read_objects(options.objects, ObjectId{1}, objects.style);
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
   const auto added = globe.add_objects(file->scene);
   if (!added) return added.error();
   if (const Status credited = globe.set_attribution(*added, file->attribution); !credited) return credited.error();
-  return file->complaints.empty();
+  objects.all = file->complaints.empty();
+  if (options.keep_features) objects.features = layer_features(file->scene, objects.style);
+  return objects;
 }
 
 std::vector<std::string> fill_complaints(const Globe& globe, LayerId layer, const std::string& file) {

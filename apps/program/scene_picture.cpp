@@ -18,6 +18,7 @@
 #include "apps/process/process.h"
 #include "apps/process/stop_signals.h"
 #include "apps/viewer/panels/legend.h"
+#include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/map_painter.h"
 #include "apps/viewer/tools/picture_ui.h"
 #include "render/gl/offscreen.h"
@@ -92,9 +93,12 @@ Status check_drawing_memory(Viewport size) {
                       fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
 }
 
-/// The layers of numbers, the highest first.
-std::vector<LegendItem> legend_of(const OpenedScene& scene) {
+/// The classes of the objects and the layers of numbers, the highest first.
+std::vector<LegendItem> legend_of(const OpenedScene& scene, const SceneOptions& options) {
   std::vector<LegendItem> items;
+  if (const auto classes = classes_of(scene.objects.style)) {
+    items.push_back(class_legend(std::filesystem::path(options.objects).stem().string(), *classes));
+  }
   for (auto at = scene.images.rbegin(); at != scene.images.rend(); ++at) {
     const SceneLayer& layer = *at;
     const auto look = layer.numbers ? scene.globe->look(layer.id) : Result<ImageLook>(Error{});
@@ -194,7 +198,7 @@ Camera ScenePicture::first_camera() const {
   return default_camera(parts_->with_data(), parts_->scene.body.ellipsoid, said.size);
 }
 
-bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
+bool ScenePicture::has_all_objects() const { return parts_->scene.objects.all; }
 
 const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
   if (!part) part = part_with_data(command.scene.base.address, scene.base.grid.bounds);
@@ -207,7 +211,7 @@ void ScenePicture::Parts::check_fills() {
   for (const LayerId layer : scene.globe->objects()) {
     for (const std::string& complaint : fill_complaints(*scene.globe, layer, command.scene.objects)) {
       print_message("{}\n", complaint);
-      scene.all_objects = false;
+      scene.objects.all = false;
     }
   }
 }
@@ -231,7 +235,7 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   std::vector<std::string> thanks = globe.attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
   PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
-  if (own.command.legend) overlay.legend = legend_of(own.scene);
+  if (own.command.legend) overlay.legend = legend_of(own.scene, own.command.scene);
   if (own.command.credits) overlay.credits = thanks;
   if (const Status drawn = draw_over_picture(globe, framebuffer, size, overlay); !drawn) {
     return Error{where + drawn.error().message};

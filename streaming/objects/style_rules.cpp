@@ -97,11 +97,6 @@ std::string fault_of(const json& value) {
   return {};
 }
 
-std::optional<double> number_of(const json& value) {
-  if (value.is_number()) return value.get<double>();
-  return value.is_string() ? read_number(value.get_ref<const std::string&>()) : std::nullopt;
-}
-
 /// Returns a value between two, numbers or colours; null for others.
 json between(const json& low, const json& high, double part) {
   const auto mix = [part](double a, double b) { return a + part * (b - a); };
@@ -186,6 +181,11 @@ class Evaluation {
 };
 
 }  // namespace
+
+std::optional<double> number_of(const json& value) {
+  if (value.is_number()) return value.get<double>();
+  return value.is_string() ? read_number(value.get_ref<const std::string&>()) : std::nullopt;
+}
 
 Result<FeatureStyle> FeatureStyle::parse(std::string_view text, const std::string& where) {
   const Result<json> said = parse_json_object(text, kMaxStyleBytes, where);

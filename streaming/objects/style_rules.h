@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "streaming/objects/feature_style.h"
 
@@ -10,6 +11,9 @@ namespace terrella {
 struct FeatureStyle::Rules {
   nlohmann::json properties;
 };
+
+/// Returns the number that a field means in expressions: a number, or a text that is one. thread: any
+[[nodiscard]] std::optional<double> number_of(const nlohmann::json& value);
 
 /// Returns a feature's properties with those of a style in their place: null where an expression has no value.
 /// thread: any

@@ -38,6 +38,21 @@ class ObjectStyle(ProgramTest):
         self.write("own.geojson", json.dumps(square(50)).encode())
         self.assertEqual(self.drawn({"fill-opacity": 1, "stroke-width": 0}), (0, 0, 255), "what the style leaves alone")
 
+    def test_a_legend_shows_its_classes(self):
+        style = {"fill": ["step", ["get", "people"], "#00ff00", 40, "#0000ff", 60, "#ff0000"]}
+        self.write("style.json", json.dumps(style).encode())
+        drawn = ("render", "--objects", "f.geojson", "--object-style", "style.json", "--camera", "40,60,4000000",
+                 "--size", "400x300", *VIEW[4:])
+        self.assert_done(*drawn, "-o", "plain.png")
+        self.assert_done(*drawn, "--legend", "-o", "legend.png")
+        # Swatches stand at the left edge: the classes in their order, under the title.
+        plain, legend = (png.read(self.folder / name) for name in ("plain.png", "legend.png"))
+        column = [png.pixel(legend, 30, y) for y in range(300)]
+        seen = [column.index(color) for color in ((0, 255, 0), (0, 0, 255), (255, 0, 0))]
+        self.assertEqual(seen, sorted(seen))
+        self.assertGreater(seen[0], 200)
+        self.assertNotEqual(png.pixel(plain, 30, seen[0]), (0, 255, 0))
+
     def test_a_faulty_style_is_refused_with_a_cure(self):
         faults = {
             '{"colour": "#fff"}': ["style.json", '"colour"', "there are"],

@@ -42,6 +42,7 @@ struct SceneOptions {
   SurfaceLook surface;
   StereoLook stereo;
   std::string objects;          ///< GeoJSON, or a vector file of GDAL's; empty: none
+  bool keep_features = false;   ///< keep the features of the objects, for other styles
   std::string object_style;     ///< JSON file of a style for the objects; empty: their own properties
   std::optional<bool> map;      ///< --map; absent: the command's default
   std::string places;           ///< GeoJSON file of names, for map and search; empty: the Earth's cities

@@ -5,6 +5,7 @@
 #include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/styles/style_panel.h"
 
 namespace terrella {
 namespace {
@@ -100,6 +101,7 @@ LayerAsk draw_row(LayerRow& row) {
   if (row.numbers && row.read_facts) row.numbers->lines.clear();
   if (row.numbers && row.look.numbers) draw_numbers(*row.numbers, *row.look.numbers);
   if (row.kind == LayerKind::imagery) draw_look(row);
+  if (row.style) draw_style(*row.style);
   draw_attribution(row);
   const LayerAsk ask = draw_buttons(row);
   draw_facts(row);

@@ -9,6 +9,7 @@
 #include "apps/commands/raster_facts.h"
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/scene_numbers.h"
+#include "apps/viewer/styles/layer_style.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
 #include "surface/layers.h"
@@ -31,6 +32,7 @@ struct LayerRow {
   FactsReader read_facts = {};                              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
   bool fills_checked = false;                               ///< objects: areas without a fill are reported
+  std::shared_ptr<LayerStyle> style = {};                   ///< set for objects with features
   bool facts_drawn = false;                                 ///< the panel was drawn since they came
 
   [[nodiscard]] bool has_facts() const {

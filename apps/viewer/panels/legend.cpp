@@ -16,7 +16,9 @@ namespace {
 constexpr float kBarWidth = 17.0F;  // in text heights
 constexpr float kBarHeight = 0.9F;
 constexpr float kTickHeight = 0.3F;
-constexpr float kItemHeight = 1.25F + kBarHeight + kTickHeight + 1.15F;
+constexpr float kTitleHeight = 1.25F;
+constexpr float kItemHeight = kTitleHeight + kBarHeight + kTickHeight + 1.15F;
+constexpr float kClassHeight = 1.25F, kSwatchWidth = 1.6F, kAfterClasses = 0.25F;
 constexpr int kSlices = 256;
 constexpr int kMostTicks = 6;
 const ImU32 kInk = IM_COL32(232, 240, 248, 255);
@@ -63,6 +65,20 @@ std::string shortened(std::string text, float most) {
   return text + "...";
 }
 
+float height_of(const LegendItem& item) {
+  if (item.classes.empty()) return kItemHeight;
+  return kTitleHeight + kClassHeight * static_cast<float>(item.classes.size()) + kAfterClasses;
+}
+
+void draw_classes(ImDrawList* list, const std::vector<LegendClass>& classes, ImVec2 at, float width) {
+  const float unit = ImGui::GetFontSize(), from = (kSwatchWidth + 0.5F) * unit;
+  for (const LegendClass& one : classes) {
+    list->AddRectFilled(at, {at.x + kSwatchWidth * unit, at.y + unit}, packed(one.color));
+    list->AddText({at.x + from, at.y}, kInk, panel_text(shortened(one.text, width - from)).c_str());
+    at.y += kClassHeight * unit;
+  }
+}
+
 }  // namespace
 
 std::vector<double> legend_ticks(double low, double high, int most) {
@@ -90,19 +106,25 @@ std::string tick_text(double value, double step) {
 
 double window_height() { return static_cast<double>(ImGui::GetIO().DisplaySize.y); }
 
-UiBox legend_box(std::size_t items, double left, double bottom) {
+UiBox legend_box(const std::vector<LegendItem>& items, double left, double bottom) {
   const double unit = Ui::text_height();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const double most = double(ImGui::GetIO().DisplaySize.x) - 2.0 * left;
   const double width = std::min(double(kBarWidth) * unit + 2.0 * double(padding.x), most);
-  const double height = double(kItemHeight) * unit * double(items) + 2.0 * double(padding.y);
+  double height = 2.0 * double(padding.y);
+  for (const LegendItem& item : items) height += double(height_of(item)) * unit;
   return {left, bottom - height, left + width, bottom};
+}
+
+std::vector<LegendItem> legend_with_room(std::vector<LegendItem> items, double left, double bottom) {
+  while (!items.empty() && legend_box(items, left, bottom).top < 0.0) items.pop_back();
+  return items;
 }
 
 void draw_legend(const std::vector<LegendItem>& items, double left, double bottom) {
   if (items.empty()) return;
   const float unit = ImGui::GetFontSize();
-  const UiBox box = legend_box(items.size(), left, bottom);
+  const UiBox box = legend_box(items, left, bottom);
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const ImVec2 inner{static_cast<float>(box.right - box.left) - 2.0F * padding.x,
                      static_cast<float>(box.bottom - box.top) - 2.0F * padding.y};
@@ -112,10 +134,13 @@ void draw_legend(const std::vector<LegendItem>& items, double left, double botto
   for (const LegendItem& item : items) {
     const std::string said = item.unit.empty() ? item.title : item.title + ", " + item.unit;
     list->AddText(at, kInk, panel_text(shortened(said, inner.x)).c_str());
-    at.y += 1.25F * unit;
-    draw_bar(list, item.look, at, {inner.x, kBarHeight * unit});
-    draw_ticks(list, item.look, {at.x, at.y + kBarHeight * unit}, inner.x);
-    at.y += (kItemHeight - 1.25F) * unit;
+    const ImVec2 under{at.x, at.y + kTitleHeight * unit};
+    draw_classes(list, item.classes, under, inner.x);
+    if (item.classes.empty()) {
+      draw_bar(list, item.look, under, {inner.x, kBarHeight * unit});
+      draw_ticks(list, item.look, {under.x, under.y + kBarHeight * unit}, inner.x);
+    }
+    at.y += height_of(item) * unit;
   }
   ImGui::End();
 }

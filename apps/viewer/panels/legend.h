@@ -8,11 +8,18 @@
 
 namespace terrella {
 
-/// The entry of one layer of numbers in a legend.
+/// A colour in a legend, and the values that have it.
+struct LegendClass {
+  Rgba8 color;
+  std::string text;
+};
+
+/// The entry of one layer in a legend: a bar of numbers, or classes.
 struct LegendItem {
   std::string title;  ///< quantity or name of the layer
   std::string unit;   ///< empty: unknown
   NumberLook look;
+  std::vector<LegendClass> classes = {};  ///< drawn in place of the bar if there are any
 };
 
 /// Round values within [low, high], 1, 2 or 5 times a power of ten apart, at most `most` of them; none if low is not
@@ -26,10 +33,13 @@ struct LegendItem {
 [[nodiscard]] double window_height();
 
 /// The rectangle of draw_legend(). thread: main
-[[nodiscard]] UiBox legend_box(std::size_t items, double left, double bottom);
+[[nodiscard]] UiBox legend_box(const std::vector<LegendItem>& items, double left, double bottom);
 
-/// Draws a colour bar with ticks for each item, the first one highest, with the lower left corner at a place in units
-/// of the window. Between the begin and the end of a frame of Dear ImGui. thread: main
+/// Leaves out the last items, which have no room between the upper edge and `bottom`. thread: main
+[[nodiscard]] std::vector<LegendItem> legend_with_room(std::vector<LegendItem> items, double left, double bottom);
+
+/// Draws a colour bar with ticks or the classes of each item, the first one highest, with the lower left corner at a
+/// place in units of the window. Between the begin and the end of a frame of Dear ImGui. thread: main
 void draw_legend(const std::vector<LegendItem>& items, double left, double bottom);
 
 }  // namespace terrella

@@ -13,6 +13,7 @@
 #include "apps/process/option_names.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/legend.h"
+#include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/recent_files.h"
 
 namespace terrella {
@@ -32,15 +33,21 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
       switches_(std::move(switches)) {}
 
 bool Layers::changed() const {
-  const auto has_news = [](const LayerRow& row) { return !row.facts_drawn && row.has_facts(); };
-  return files_.ready() || value_.ready() || open_wish_ || std::ranges::any_of(rows_, has_news);
+  const auto has_news = [](const LayerRow& row) {
+    return (!row.facts_drawn && row.has_facts()) || (row.style && row.style->has_news());
+  };
+  return files_.ready() || value_.ready() || open_wish_ || (panel() != nullptr && std::ranges::any_of(rows_, has_news));
 }
 
 void Layers::draw_open(float foot) {
   std::vector<LayerRow> rows = rows_;
+  for (const LayerRow& row : rows) {
+    if (row.style) row.style->set_waiting(false);
+  }
   const LayerWish wish = draw_layers(panel(), rows, switches_, foot, take_just_opened());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     take_look(rows_[i], rows[i].look);
+    take_style(rows_[i]);
     rows_[i].numbers = std::move(rows[i].numbers);
     rows_[i].facts = std::move(rows[i].facts);
     rows_[i].facts_drawn = rows_[i].has_facts();
@@ -64,6 +71,8 @@ void Layers::draw_open(float foot) {
 std::vector<LegendItem> Layers::legend() const {
   std::vector<LegendItem> items;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
+    if (row->style && row->style->classes() && row->look.shown)
+      items.push_back(class_legend(row->name, *row->style->classes()));
     if (!row->numbers || !row->look.numbers || !row->look.shown) continue;
     items.push_back(
         {.title = legend_title(row->name, *row->numbers), .unit = row->numbers->unit, .look = *row->look.numbers});
@@ -72,9 +81,9 @@ std::vector<LegendItem> Layers::legend() const {
 }
 
 void Layers::draw_legend(float foot, bool before_panels) const {
-  const std::vector<LegendItem> items = legend();
   const double gap = kLegendGap * Ui::text_height(), bottom = window_height() - double(foot) - gap;
-  const UiBox box = legend_box(items.size(), gap, bottom);
+  const std::vector<LegendItem> items = legend_with_room(legend(), gap, bottom);
+  const UiBox box = legend_box(items, gap, bottom);
   const auto covers = [&box](const UiBox& other) { return other.overlaps(box); };
   const bool high = box.top > kHighWindow * Ui::text_height();
   if (high == before_panels && std::ranges::none_of(Ui::panel_boxes(), covers))
@@ -106,6 +115,17 @@ void Layers::take_look(LayerRow& row, const ImageLook& look) {
   if (row.kind == LayerKind::heights) set = use_heights(look.shown ? heights_ : std::nullopt);
   if (!set) return say(set.error().message);
   row.look = look;
+}
+
+void Layers::take_style(LayerRow& row) {
+  if (!row.style) return;
+  if (const auto wish = row.style->take_wish()) {
+    const Status done = row.style->apply(context_.globe, row.id, *wish);
+    if (!done) say(done.error().message);
+  }
+  if (!row.style->take_save_wish()) return;
+  const Result<std::filesystem::path> saved = save_style(*row.style);
+  say(saved ? "Saved " + saved->filename().string() : saved.error().message);
 }
 
 Status Layers::use_heights(const std::optional<ElevationSource>& heights) {
@@ -251,6 +271,7 @@ Status Layers::add_objects(ObjectFile file, LayerRow& row) {
   row.kind = LayerKind::objects;
   row.bounds = bounds_of(file.scene);
   row.attribution = file.attribution;
+  row.style = style_of_layer(layer_features(file.scene));
   const auto id = context_.globe.add_objects(std::move(file.scene));
   if (!id) return id.error();
   row.id = *id;

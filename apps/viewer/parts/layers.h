@@ -34,9 +34,9 @@ class Layers : public Panel {
   [[nodiscard]] std::string job() const override { return files_.text(); }
   [[nodiscard]] bool changed() const override;
   bool cancel() override;
-  /// The shown layers of numbers, the highest first.
+  /// The shown layers of numbers and of classes, the highest first.
   [[nodiscard]] std::vector<LegendItem> legend() const;
-  /// Draws the legend of the shown layers of numbers above the `foot` units at the lower edge. A high window shows the
+  /// Draws the legend of the shown layers above the `foot` units at the lower edge. A high window shows the
   /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
   void draw_legend(float foot, bool before_panels) const;
   /// Name of a layer of objects; nullopt if the layer is hidden or has no row.
@@ -47,6 +47,7 @@ class Layers : public Panel {
  private:
   void draw_open(float foot) override;
   void take_look(LayerRow& row, const ImageLook& look);
+  void take_style(LayerRow& row);
   Status use_heights(const std::optional<ElevationSource>& heights);
   void move(std::size_t row, bool up);
   void remove(std::size_t row);

@@ -64,7 +64,7 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
   const View view = globe.view(size);
   if (overlay.map != nullptr) overlay.map->draw_lines(globe, view, 1.0, MapDetail::full);
   const double gap = kGap * Ui::text_height();
-  draw_legend(overlay.legend, gap, size.height_px - gap);
+  draw_legend(legend_with_room(overlay.legend, gap, size.height_px - gap), gap, size.height_px - gap);
   PanelStatus status;
   status.attribution = fmt::format("{}", fmt::join(overlay.credits, "   "));
   draw_head(status);

@@ -1,0 +1,75 @@
+#include "apps/viewer/styles/layer_style.h"
+
+#include <chrono>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "apps/process/write_file.h"
+#include "apps/viewer/tools/screenshot.h"
+
+namespace terrella {
+namespace {
+
+/// Leaves out the row of other features in the legend if there are none.
+void leave_out_rest(ClassStyle& classes, const FieldValues& field) {
+  const bool all = field.missing == 0 && classes.categories.size() == field.categories.size();
+  if (!classes.categories.empty() && all) classes.rest.reset();
+}
+
+}  // namespace
+
+LayerStyle::LayerStyle(std::shared_ptr<const LayerFeatures> features)
+    : features_(std::move(features)), style_(features_->style), classes_(classes_of(style_)) {}
+
+void LayerStyle::read_fields(const std::function<void()>& wake_up) {
+  if (fields_.valid()) return;
+  fields_ = std::async(std::launch::async, [features = features_, wake_up] {
+              std::vector<FieldValues> fields = fields_of(features->parts);
+              wake_up();
+              return fields;
+            }).share();
+}
+
+const std::vector<FieldValues>* LayerStyle::fields() const {
+  const bool have_come = fields_.valid() && fields_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return have_come ? &fields_.get() : nullptr;
+}
+
+Status LayerStyle::apply(Globe& globe, LayerId layer, const StyleChoice& choice) {
+  const std::vector<FieldValues>* all = fields();
+  const FieldValues* field = all != nullptr ? chosen_field(choice, *all) : nullptr;
+  if (field == nullptr) {
+    if (Status done = globe.edit_objects(layer, features_->own); !done) return done;
+    style_ = features_->style;
+    classes_ = classes_of(style_);
+    choice_ = choice;
+    choice_.field.clear();
+    return Done{};
+  }
+  ClassStyle classes = style_of(choice, *field, targets_of(features_->parts));
+  Result<FeatureStyle> style = overlaid(features_->style, style_text(classes));
+  if (!style) return style.error();
+  if (Status done = globe.edit_objects(layer, restyled(features_->parts, *style)); !done) return done;
+  style_ = *std::move(style);
+  leave_out_rest(classes, *field);
+  classes_ = std::move(classes);
+  choice_ = choice;
+  return Done{};
+}
+
+std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features) {
+  if (features.parts.empty()) return nullptr;
+  return std::make_shared<LayerStyle>(std::make_shared<const LayerFeatures>(std::move(features)));
+}
+
+Result<std::filesystem::path> save_style(const LayerStyle& style) {
+  std::error_code unknown;
+  const auto file =
+      new_file_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now(), "-style.json");
+  const std::string text = style.text();
+  if (const Status saved = write_file(file, std::as_bytes(std::span(text))); !saved) return saved.error();
+  return file;
+}
+
+}  // namespace terrella
