@@ -83,8 +83,12 @@ void Input::listen_to_pointer() {
   glfwSetCursorPosCallback(window_.handle(), [](GLFWwindow* w, double x, double y) {
     Input& self = input_of(w);
     self.pointer_px_ = self.window_.to_px({x, y});
-    self.navigator_.pointer_move(self.pointer_px_, now());
     self.dirty_ = true;
+    if (self.dragging_) {
+      self.dragger_(DragStep::move, self.pointer_px_);
+    } else {
+      self.navigator_.pointer_move(self.pointer_px_, now());
+    }
   });
   glfwSetCursorEnterCallback(window_.handle(), [](GLFWwindow* w, int entered) {
     Ui::on_enter(w, entered);
@@ -103,7 +107,7 @@ void Input::listen_to_keys() {
     Input& self = input_of(w);
     const bool taken = self.ui_.on_key(key, action);
     const bool with_ctrl = action == GLFW_PRESS && (modifiers & GLFW_MOD_CONTROL) != 0;
-    if (with_ctrl && self.on_ctrl(glfwGetKeyName(key, scancode))) return;
+    if (with_ctrl && self.on_ctrl(glfwGetKeyName(key, scancode), modifiers)) return;
     self.on_key(key, action, modifiers, taken);
   });
   // Letters and symbols arrive as characters, so that they follow the keyboard's layout.
@@ -138,6 +142,10 @@ void Input::on_button(int button, int action, int modifiers) {
   const double slack_px = kClickSlack_px * window_.text_scale();
   if (action == GLFW_RELEASE) return on_release(which, at, slack_px);
   const bool ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
+  if (which == PointerButton::left && !ctrl && dragger_ && dragger_(DragStep::begin, at)) {
+    dragging_ = true;
+    return;
+  }
   if (which == PointerButton::left && !ctrl) pressed_px_ = at;
   if (which == PointerButton::right) right_ = RightPress{at, navigator_.camera()};
   if (which == PointerButton::left && !ctrl && clicks_.press(at, now(), slack_px) && double_clicks_) {
@@ -149,6 +157,10 @@ void Input::on_button(int button, int action, int modifiers) {
 }
 
 void Input::on_release(PointerButton which, glm::dvec2 at, double slack_px) {
+  if (which == PointerButton::left && std::exchange(dragging_, false)) {
+    dragger_(DragStep::end, at);
+    return;
+  }
   navigator_.pointer_up(which, now(), late_);
   if (which == PointerButton::right) {
     const auto pressed = std::exchange(right_, {});
@@ -193,17 +205,21 @@ const Action* Input::action_of(int key, int modifiers) const {
 }
 
 // The name of a key is its letter in the keyboard's layout; keys with Ctrl are no characters. A text field keeps its
-// own keys with Ctrl. True if an action runs.
-bool Input::on_ctrl(const char* name) {
+// own keys with Ctrl. A row with Shift wins while Shift is held. True if an action runs.
+bool Input::on_ctrl(const char* name, int modifiers) {
   if (name == nullptr || name[1] != '\0') return false;
-  const auto found = std::ranges::find_if(actions_, [name](const Action& one) {
+  const Action* best = nullptr;
+  for (const Action& one : actions_) {
     const bool free = (one.flags & Action::types) != 0 || !Ui::has_text_field();
-    return (one.flags & Action::ctrl) != 0 && free && one.characters.find(char32_t(name[0])) != one.characters.npos;
-  });
-  if (found == actions_.end()) return false;
+    const bool shifted = (one.flags & Action::shifted) != 0;
+    if ((one.flags & Action::ctrl) == 0 || !free || one.characters.find(char32_t(name[0])) == one.characters.npos)
+      continue;
+    if (shifted ? (modifiers & GLFW_MOD_SHIFT) != 0 : best == nullptr) best = &one;
+  }
+  if (best == nullptr) return false;
   dirty_ = true;
   repeating_ = false;
-  queue(*found);
+  queue(*best);
   return true;
 }
 

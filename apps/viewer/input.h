@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "apps/viewer/action.h"
@@ -25,6 +27,9 @@ struct InputEvent {
   PointerButton button = PointerButton::left;
   glm::dvec2 at_px{0.0};  ///< place of a click, framebuffer pixels
 };
+
+/// Steps of a drag with the left button.
+enum class DragStep { begin, move, end };
 
 /// Detects double clicks by time and distance.
 class ClickPair {
@@ -55,12 +60,15 @@ class Input {
   /// Actions and clicks since the last call, in order.
   [[nodiscard]] std::vector<InputEvent> take_events();
   [[nodiscard]] std::optional<BookmarkKey> take_bookmark();  ///< latest request since the last call
+  /// Sets who is asked first about drags with the left button. A `begin` that returns true takes the whole drag from
+  /// the globe. The pixel is one of the framebuffer.
+  void set_dragger(std::function<bool(DragStep step, glm::dvec2 at_px)> dragger) { dragger_ = std::move(dragger); }
   /// Files and folders dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
   /// Enables or disables flying to a place by double click.
   void set_double_clicks(bool on) { double_clicks_ = on; }
   /// True while the left or the right button is held on the globe.
-  [[nodiscard]] bool is_button_held() const { return pressed_px_.has_value() || right_.has_value(); }
+  [[nodiscard]] bool is_button_held() const { return dragging_ || pressed_px_.has_value() || right_.has_value(); }
   /// True if an event since the last call can change the picture.
   [[nodiscard]] bool take_dirty();
   [[nodiscard]] bool dirty() const { return dirty_; }
@@ -80,7 +88,7 @@ class Input {
   void on_further_button(int button, int action);
   void on_key(int key, int action, int modifiers, bool taken);
   [[nodiscard]] const Action* action_of(int key, int modifiers) const;
-  bool on_ctrl(const char* name);
+  bool on_ctrl(const char* name, int modifiers);
   void on_character(unsigned character);
   void queue(const Action& action);
 
@@ -91,6 +99,8 @@ class Input {
   /// Cursor position at the last event. The window only knows the current position, which differs from the position of
   /// a button press after a slow frame.
   glm::dvec2 pointer_px_;
+  std::function<bool(DragStep, glm::dvec2)> dragger_;
+  bool dragging_ = false;  ///< the dragger has the left button
   ClickPair clicks_;
   bool double_clicks_ = true;
   std::optional<BookmarkKey> bookmark_;

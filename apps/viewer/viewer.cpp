@@ -46,6 +46,8 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   started_ = now_kept();
   if (options.first_run) messages_.say(kHint, kHintTime);
   if (!options.message.empty()) messages_.say(options.message);
+  input_.set_dragger([this](DragStep step, glm::dvec2 at_px) { return draw_.drag(step, at_px); });
+  draw_.restore();
 }
 
 KeptSettings Viewer::now_kept() {
@@ -75,7 +77,7 @@ void Viewer::keep_settings() {
 }
 
 void Viewer::run() {
-  while (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
+  while (!is_closed()) {
     wait_for_work();
     handle_events();
     const Viewport framebuffer = window_.framebuffer();
@@ -104,16 +106,15 @@ void Viewer::tell_of_finest_texels() {
   was_at_texels_ = there;
 }
 
-void Viewer::click(glm::dvec2 at_px) { measure_.is_on() ? measure_.add(at_px) : balloon_.click(at_px); }
-
 void Viewer::handle_events() {
   for (const InputEvent& event : input_.take_events()) {
     if (event.action != nullptr) event.action->run(*this);
     if (event.action == nullptr && help_.close()) continue;  // a click closes the list of shortcuts
     if (event.action == nullptr && event.button == PointerButton::left) click(event.at_px);
-    if (event.action == nullptr && event.button == PointerButton::right) menu_.open_at(event.at_px);
+    const bool right = event.action == nullptr && event.button == PointerButton::right;
+    if (right && !draw_.right_click()) menu_.open_at(event.at_px);
   }
-  input_.set_double_clicks(!measure_.is_on());
+  input_.set_double_clicks(!measure_.is_on() && !draw_.is_sketching());
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
@@ -223,13 +224,16 @@ void Viewer::draw_panels(Viewport framebuffer) {
 
 // A pointer that rests on the globe gets a name, while no button is held and nothing moves.
 void Viewer::draw_balloon(const View& view, float foot) {
-  const bool busy = input_.is_over_panel() || input_.is_button_held() || measure_.is_on() || menu_.is_open();
+  const bool busy =
+      input_.is_over_panel() || input_.is_button_held() || measure_.is_on() || draw_.is_sketching() || menu_.is_open();
   balloon_.draw_over(view, busy || !navigator_.at_rest() ? std::nullopt : input_.cursor_px(), foot);
 }
 
 // Draws items where the panels leave room.
 void Viewer::draw_over_panels(const View& view, float foot) {
-  measure_.draw_over(view, input_.is_over_panel() ? std::nullopt : input_.cursor_px(), foot);
+  const auto cursor_px = input_.is_over_panel() ? std::nullopt : input_.cursor_px();
+  measure_.draw_over(view, cursor_px, foot);
+  draw_.draw_over(view, cursor_px);
   const bool narrow = view.viewport.width_px < kRoomForBoth * Ui::text_height() * window_.pixels_per_unit().x;
   if (narrow) draw_balloon(view, foot);  // has the room of the buttons
   const ControlColumn column = draw_control_column(actions(), navigator_.camera().heading);
@@ -265,7 +269,7 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 6> newest{&pictures_, &search_, &open_, &bookmarks_, &layers_, &modes_};
+  std::array<Panel*, 7> newest{&pictures_, &search_, &open_, &bookmarks_, &draw_, &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

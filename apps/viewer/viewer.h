@@ -9,6 +9,7 @@
 #include "apps/open_scene/options/source_options.h"
 #include "apps/viewer/action.h"
 #include "apps/viewer/balloon/balloon.h"
+#include "apps/viewer/draw/draw.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
@@ -78,6 +79,10 @@ class Viewer {
   void pass_keyboard();
   void handle_events();
   void click(glm::dvec2 at_px);
+  void add_middle();
+  void take_back();
+  void save_drawn();
+  [[nodiscard]] bool is_closed();
   void follow_panels();
   [[nodiscard]] Part* front_panel() const;
   [[nodiscard]] bool work() const;
@@ -121,8 +126,10 @@ class Viewer {
   Layers layers_;
   OpenDialog open_{context_, [this](std::filesystem::path file) { layers_.open(std::move(file)); }};
   ViewModes modes_;
-  Measure measure_{context_};
-  Balloon balloon_{context_, [this](LayerId layer) { return layers_.shown_objects(layer); }};
+  Draw draw_{context_};
+  Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); }};
+  Balloon balloon_{context_,
+                   [this](LayerId layer) { return draw_.owns(layer) ? "Drawings" : layers_.shown_objects(layer); }};
   Cutting cutting_;
   PlaceMenu menu_{context_,
                   actions(),
@@ -134,8 +141,8 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 12> parts_{&help_,    &menu_,   &pictures_, &search_,  &open_,    &bookmarks_,
-                                     &balloon_, &layers_, &modes_,    &measure_, &cutting_, &map_};
+  const std::array<Part*, 13> parts_{&help_, &menu_,   &pictures_, &search_,  &open_,    &bookmarks_, &balloon_,
+                                     &draw_, &layers_, &modes_,    &measure_, &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

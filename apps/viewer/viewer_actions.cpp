@@ -52,7 +52,29 @@ void Viewer::leave() {
   messages_.say("Press Esc again to quit", kQuitTime);
 }
 
+void Viewer::add_middle() {
+  draw_.is_sketching() ? draw_.add(context_.middle_px()) : measure_.add(context_.middle_px());
+}
+
+void Viewer::take_back() { draw_.is_sketching() ? draw_.take_back() : measure_.take_back(); }
+
+void Viewer::save_drawn() { draw_.is_open() && !measure_.is_on() ? draw_.save() : measure_.save(); }
+
+void Viewer::click(glm::dvec2 at_px) {
+  if (draw_.click(at_px)) return;
+  measure_.is_on() ? measure_.add(at_px) : balloon_.click(at_px);
+}
+
 void Viewer::quit() { glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE); }
+
+// Drawings that cannot be kept are told before they are lost.
+bool Viewer::is_closed() {
+  if (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) return false;
+  if (draw_.may_quit()) return true;
+  glfwSetWindowShouldClose(window_.handle(), GLFW_FALSE);
+  panel_frames_ = kPanelFrames;  // shows the message
+  return false;
+}
 
 // The compass: the first click turns north up, a second click also looks straight down.
 void Viewer::turn_back() {
@@ -165,16 +187,17 @@ constinit const Action Viewer::kActions[] = {
     {"C", "map: coastlines, borders and names", [](V v) { v.map_.toggle(); }, U"c"},
     {"/", "search for a place", [](V v) { v.search_.toggle(); }, U"/", 0, 0, Action::types},
     {"M", "measure: start, end", [](V v) { v.measure_.toggle(); }, U"m"},
+    {"D", "draw: place marks, lines, areas", [](V v) { v.draw_.toggle(); }, U"d"},
     {.keys = "Enter",
-     .what = "measure: add the middle of the view",
-     .run = [](V v) { v.measure_.add(v.context_.middle_px()); },
+     .what = "measure, draw: add the middle of the view",
+     .run = [](V v) { v.add_middle(); },
      .key = GLFW_KEY_ENTER,
      .other_key = GLFW_KEY_KP_ENTER,
      .flags = Action::unlisted,
      .mouse = "click a place"},
     {.keys = "Backspace",
-     .what = "measure: remove the last place",
-     .run = [](V v) { v.measure_.take_back(); },
+     .what = "measure, draw: remove the last place",
+     .run = [](V v) { v.take_back(); },
      .key = GLFW_KEY_BACKSPACE,
      .flags = Action::unlisted,
      .mouse = "Undo"},
@@ -184,12 +207,31 @@ constinit const Action Viewer::kActions[] = {
      .characters = U"c",
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Copy"},
+    {.keys = "Ctrl + D",
+     .what = "measure: keep the result as a drawing",
+     .run = [](V v) { v.measure_.keep(); },
+     .characters = U"d",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Keep"},
     {.keys = "Ctrl + S",
-     .what = "measure: save the result as GeoJSON",
-     .run = [](V v) { v.measure_.save(); },
+     .what = "measure, draw: save as GeoJSON or KML",
+     .run = [](V v) { v.save_drawn(); },
      .characters = U"s",
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Save"},
+    {.keys = "Ctrl + Z",
+     .what = "draw: undo",
+     .run = [](V v) { v.draw_.undo(); },
+     .characters = U"z",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Undo"},
+    {.keys = "Ctrl + Y, Ctrl + Shift + Z",
+     .what = "draw: redo",
+     .run = [](V v) { v.draw_.redo(); },
+     .characters = U"y",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Redo"},
+    {nullptr, nullptr, [](V v) { v.draw_.redo(); }, U"z", 0, 0, Action::ctrl | Action::shifted},
     {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
     {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
     {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},

@@ -18,7 +18,8 @@ TEST(Actions, EachKeyHasOneAction) {
   std::set<std::pair<int, unsigned>> keys;
   for (const Action& action : Viewer::actions()) {
     for (const char32_t character : action.characters)
-      EXPECT_TRUE(characters.insert({character, action.flags & Action::ctrl}).second) << action.what;
+      EXPECT_TRUE(characters.insert({character, action.flags & (Action::ctrl | Action::shifted)}).second)
+          << action.what;
     for (const int key : {action.key, action.other_key}) {
       EXPECT_TRUE(key == 0 || keys.insert({key, action.flags & Action::kModifiers}).second) << key;
     }

@@ -71,7 +71,7 @@ TEST(MeasureTool, IsSavedAsGeoJson) {
   const auto& ring = json["features"][1]["geometry"]["coordinates"][0];
   ASSERT_EQ(ring.size(), 4U) << "closed";
   EXPECT_EQ(ring[0], ring[3]);
-  EXPECT_EQ(ring[0], nlohmann::json({190.0, 0.0})) << "against the clock";
+  EXPECT_EQ(ring[1], nlohmann::json({190.0, 0.0})) << "against the clock, from the first place";
   const auto point = nlohmann::json::parse(measurement_geojson(sphere, std::vector{at(1, 2)}));
   EXPECT_EQ(point["features"][0]["geometry"]["type"], "Point");
 }

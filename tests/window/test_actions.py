@@ -20,6 +20,7 @@ ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
 OBJECT = {"type": "Feature", "properties": {"note": "here"}, "geometry": {"type": "Point", "coordinates": [10, 20]}}
 RESET = "reset the view: settings as at the start, whole globe"
+DRAW_BUTTONS, DRAW_ROW = (30, 85), 65  # pixels from the left and from the top of the panel
 ROW_BUTTONS = 26  # pixels over the lower edge of the row of a measurement: over the texts of its buttons
 
 
@@ -128,6 +129,23 @@ class Walk(WindowTest):
         self.viewer.click(starts[index] + 12, bottom - ROW_BUTTONS + 7)
         time.sleep(0.15)
 
+    def drawn(self):
+        """A mark of two places, and the panel of the marks."""
+        self.measured()
+        self.key("ctrl+d")
+        self.viewer.settled()
+
+    def undone(self):
+        self.drawn()
+        self.key("ctrl+z")
+        self.viewer.settled()
+
+    def draw_button(self, index):
+        """Clicks a button under those that begin a mark."""
+        left, top, _, _ = self.viewer.layout.panels["Draw"]
+        self.viewer.click(round(left) + DRAW_BUTTONS[index], round(top) + DRAW_ROW)
+        time.sleep(0.15)
+
     def after_measuring(self):
         self.key("m")
 
@@ -184,7 +202,7 @@ class Walk(WindowTest):
             "graticule": "g", "map: coastlines, borders and names": "c", "view settings": "p",
             "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
-            "measure: start, end": "m",
+            "measure: start, end": "m", "draw: place marks, lines, areas": "d",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}
         ways |= {
@@ -215,16 +233,20 @@ class Walk(WindowTest):
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
                                    self.close),
-            "measure: add the middle of the view": (self.shown, lambda: key("Return"),
+            "measure, draw: add the middle of the view": (self.shown, lambda: key("Return"),
                                                     lambda: self.viewer.click(260, 320), self.measured,
                                                     self.after_measuring),
-            "measure: remove the last place": (self.shown, lambda: key("BackSpace"), lambda: row_button(0),
-                                               self.measured, self.after_measuring),
+            "measure, draw: remove the last place": (self.shown, lambda: key("BackSpace"), lambda: row_button(0),
+                                                     self.measured, self.after_measuring),
             "measure: copy the result": (self.copied, lambda: key("ctrl+c"), lambda: row_button(1), self.measured,
                                          self.after_measuring),
-            "measure: save the result as GeoJSON": (
+            "measure: keep the result as a drawing": (self.shown, lambda: key("ctrl+d"), lambda: row_button(3),
+                                                      self.measured, self.close),
+            "measure, draw: save as GeoJSON or KML": (
                 lambda act: self.filed("terrella-*.geojson", act), lambda: key("ctrl+s"), lambda: row_button(2),
                 self.measured, self.after_measuring),
+            "draw: undo": (self.shown, lambda: key("ctrl+z"), lambda: self.draw_button(0), self.drawn, self.close),
+            "draw: redo": (self.shown, lambda: key("ctrl+y"), lambda: self.draw_button(1), self.undone, self.close),
             "fly to a bookmark": (self.moved, lambda: key("1"), self.bookmark_click, self.away, none),
             "save the view as a bookmark": (self.stored, lambda: key("ctrl+2"), lambda: self.place_item(2), self.away,
                                             none),

@@ -21,13 +21,6 @@ constexpr double kRing_px = 6.0;   // from one ring to the next, at 96 dots per 
 constexpr int kPicksInRing = 6;    // more in each ring than in the ring within it
 const ImU32 kStem = IM_COL32(232, 240, 248, 160);
 
-/// True if the globe hides a place. Only its far side is hidden while the surface is translucent.
-bool is_hidden(const Globe& globe, const View& view, const Ecef& at) {
-  const bool opaque = globe.options().surface.alpha >= 1.0;
-  if (!opaque && glm::dot(at.xyz_m, at.xyz_m - view.eye.xyz_m) <= 0.0) return false;
-  return hidden_by_ground(view, opaque ? globe.ground() : Ground(globe.options().body.ellipsoid), at);
-}
-
 /// Draws a line from the balloon to its place, under the panels.
 void draw_stem(const UiBox& box, glm::dvec2 at) {
   const glm::dvec2 near(std::clamp(at.x, box.left, box.right), std::clamp(at.y, box.top, box.bottom));

@@ -19,10 +19,11 @@ struct MeasureButton {
   const char* name;
   const char* why;
 };
-constexpr std::array<MeasureButton, 4> kMeasureButtons{{
+constexpr std::array<MeasureButton, 5> kMeasureButtons{{
     {MeasureAsk::undo, "Undo", "Backspace: removes the last place."},
     {MeasureAsk::copy, "Copy", "Ctrl + C: copies places, lengths and area as text."},
     {MeasureAsk::save, "Save", "Ctrl + S: saves a GeoJSON file in the folder where the program was started."},
+    {MeasureAsk::keep, "Keep", "Ctrl + D: keeps the measured places as a drawing, and ends measuring."},
     {MeasureAsk::end, "End", "M: ends measuring and removes the lines."},
 }};
 

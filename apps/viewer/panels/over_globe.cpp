@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <span>
 
+#include "objects/object_pick.h"
 #include "view/stereo.h"
 
 namespace terrella {
@@ -35,6 +37,12 @@ std::vector<EyePart> eye_parts(const Globe& globe, const View& view) {
   if (!halves) left.channels = kRedChannel;
   if (!halves) right.channels = kGreenChannel | kBlueChannel;
   return {{eyes.left, left}, {eyes.right, right}};
+}
+
+bool is_hidden(const Globe& globe, const View& view, const Ecef& at) {
+  const bool opaque = globe.options().surface.alpha >= 1.0;
+  if (!opaque && glm::dot(at.xyz_m, at.xyz_m - view.eye.xyz_m) <= 0.0) return false;
+  return hidden_by_ground(view, opaque ? globe.ground() : Ground(globe.options().body.ellipsoid), at);
 }
 
 std::vector<UiBox> object_labels(const Globe& globe, double unit_px) {

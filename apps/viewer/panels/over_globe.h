@@ -35,6 +35,8 @@ struct EyePart {
 [[nodiscard]] std::vector<EyePart> eye_parts(const Globe& globe, const View& view);
 /// Boxes of the objects' labels that no panel of this frame so far covers. Names over the globe keep off them.
 [[nodiscard]] std::vector<UiBox> object_labels(const Globe& globe, double unit_px);
+/// True if the globe hides a place. Only its far side is hidden while the surface is translucent.
+[[nodiscard]] bool is_hidden(const Globe& globe, const View& view, const Ecef& at);
 [[nodiscard]] ImVec2 to_ui(glm::dvec2 px, double unit_px);
 /// Returns ImGui's form of `color`, 0 to 255.
 [[nodiscard]] unsigned ink(const glm::vec3& color, int alpha);

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/viewer/draw/geojson_shape.h"
 #include "geo/measure.h"
 
 namespace terrella {
@@ -16,18 +15,6 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
-
-/// Longitude and latitude in degrees, each longitude within 180° of the one before.
-std::vector<std::array<double, 2>> positions_of(std::span<const Geodetic> places) {
-  constexpr double kPerDegree = 1e9;
-  std::vector<std::array<double, 2>> positions;
-  double before_deg = places.empty() ? 0.0 : places[0].lon.deg();
-  for (const Geodetic& place : places) {
-    before_deg += std::remainder(place.lon.deg() - before_deg, 360.0);
-    positions.push_back({rounded(before_deg, kPerDegree), rounded(place.lat.deg(), kPerDegree)});
-  }
-  return positions;
-}
 
 OrderedJson feature(const char* type, OrderedJson coordinates, OrderedJson properties) {
   return {{"type", "Feature"},
@@ -41,19 +28,6 @@ std::vector<double> segments_m(const Ellipsoid& ellipsoid, std::span<const Geode
     lengths.push_back(rounded(geodesic_m(ellipsoid, places[k - 1], places[k]), 1e3));
   }
   return lengths;
-}
-
-// RFC 7946 asks for the outer ring against the clock.
-OrderedJson ring_of(std::vector<std::array<double, 2>> ring) {
-  double twice_area = 0.0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const auto& [x, y] = ring[k];
-    const auto& [next_x, next_y] = ring[(k + 1) % ring.size()];
-    twice_area += x * next_y - next_x * y;
-  }
-  if (twice_area < 0.0) std::ranges::reverse(ring);
-  ring.push_back(ring.front());
-  return OrderedJson::array({ring});
 }
 
 }  // namespace
@@ -71,7 +45,7 @@ std::string measurement_text(const Ellipsoid& ellipsoid, std::span<const Geodeti
 }
 
 std::string measurement_geojson(const Ellipsoid& ellipsoid, std::span<const Geodetic> places) {
-  const auto positions = positions_of(places);
+  const auto positions = line_positions(places);
   OrderedJson features = OrderedJson::array();
   if (places.size() == 1) features.push_back(feature("Point", positions[0], OrderedJson::object()));
   if (places.size() > 1) {
@@ -83,7 +57,7 @@ std::string measurement_geojson(const Ellipsoid& ellipsoid, std::span<const Geod
   }
   if (places.size() > 2) {
     const PolygonMeasure measure = polygon_measure(ellipsoid, places);
-    features.push_back(feature("Polygon", ring_of(positions),
+    features.push_back(feature("Polygon", OrderedJson::array({ring_positions(places)}),
                                {{"area_m2", rounded(measure.area_m2, 10.0)},
                                 {"perimeter_m", rounded(measure.perimeter_m, 1e3)},
                                 {"fill", "#ffd640"},

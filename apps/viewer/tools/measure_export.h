@@ -14,7 +14,7 @@ namespace terrella {
 [[nodiscard]] std::string measurement_text(const Ellipsoid& ellipsoid, std::span<const Geodetic> places);
 
 /// A measurement as GeoJSON (RFC 7946): a Point, or a LineString with its lengths in metres and, from three places on,
-/// a Polygon with its area in square metres. A way across ±180° has longitudes beyond ±180°.
+/// a Polygon with its area in square metres. Positions: draw/geojson_shape.h.
 [[nodiscard]] std::string measurement_geojson(const Ellipsoid& ellipsoid, std::span<const Geodetic> places);
 
 }  // namespace terrella

@@ -27,7 +27,7 @@ std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Ge
   std::string text = "Length ";
   if (away && places_.size() > 1) text += fmt::format("{} + {} = ", length_text(length_m), length_text(next_m));
   text += total;
-  if (places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
+  if (encloses_ && places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
   return text;
 }
 
@@ -52,6 +52,7 @@ ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
                           .size_px = scale * kMarker_px,
                           .priority = 2.0,
                           .heights = kOnGround});
+  if (!encloses_) return scene;
   scene.polygons.push_back({.rings = {places_}, .fill = kMeasureWash, .stroke = {0, 0, 0, 0}, .heights = kOnGround});
   scene.lines.push_back({.places = {places_.back(), places_.front()},
                          .width_px = scale * kWayBack_px,

@@ -1,0 +1,93 @@
+#include "apps/viewer/draw/kept_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <span>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "apps/process/user_folder.h"
+#include "apps/process/write_file.h"
+#include "apps/viewer/draw/drawing_file.h"
+#include "apps/viewer/draw/drawing_scene.h"
+#include "apps/viewer/tools/screenshot.h"
+#include "geo/body.h"
+#include "streaming/file_bytes.h"
+#include "streaming/objects/geojson_objects.h"
+
+namespace terrella {
+
+/// An empty text for a missing file.
+Result<std::string> KeptDrawing::text_now() const {
+  const auto bytes = read_file(*file_, kMaxObjectFileBytes);
+  if (!bytes && bytes.error().problem == FileProblem::missing) return std::string();
+  if (!bytes) return Error{bytes.error().message};
+  return std::string(as_text(*bytes));
+}
+
+Result<std::filesystem::path> KeptDrawing::set_aside() const {
+  const auto aside = new_file_name(file_->parent_path(), std::chrono::system_clock::now(), ".geojson");
+  std::error_code failed;
+  std::filesystem::rename(*file_, aside, failed);
+  if (failed) return Error{fmt::format("{}: cannot be renamed: {}", file_->string(), failed.message())};
+  return aside;
+}
+
+Error KeptDrawing::not_kept() const { return Error{"Drawings last until the window closes: " + problem_}; }
+
+KeptDrawing::Loaded KeptDrawing::load() {
+  if (!file_) return {};
+  const Result<std::string> text = text_now();
+  if (!text) {
+    problem_ = text.error().message;
+    return {.drawing = {}, .complaint = not_kept().message};
+  }
+  if (text->empty()) return {};
+  known_ = *text;
+  std::istringstream stream(*text);
+  const Result<ObjectFile> read = parse_geojson_objects(stream, file_->string());
+  SceneDrawing taken = read ? drawing_of(read->scene) : SceneDrawing{};
+  if (read && read->complaints.empty() && taken.left_out == 0) return {std::move(taken.drawing), {}};
+  const Result<std::filesystem::path> aside = set_aside();
+  if (!aside) {
+    problem_ = aside.error().message;
+    return {std::move(taken.drawing), not_kept().message};
+  }
+  known_.clear();
+  return {std::move(taken.drawing), fmt::format("Some drawings cannot be read. The file is now {}", aside->string())};
+}
+
+Result<std::string> KeptDrawing::save(const Drawing& drawing) {
+  if (!problem_.empty()) return not_kept();
+  const Result<std::string> before = text_now();
+  if (!before) return before.error();
+  std::string message;
+  if (!before->empty() && *before != known_) {
+    const Result<std::filesystem::path> aside = set_aside();
+    if (!aside) return aside.error();
+    message = "Another window has changed the drawings. Its drawings are now in " + aside->string();
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(file_->parent_path(), failed);
+  if (failed) return Error{file_->parent_path().string() + ": " + failed.message()};
+  std::string text = drawing_geojson(drawing);
+  if (Status written = write_file(*file_, std::as_bytes(std::span(text))); !written) return written.error();
+  known_ = std::move(text);
+  return message;
+}
+
+std::optional<std::filesystem::path> drawings_file(const std::string& body) {
+  const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
+  if (!folder) return std::nullopt;
+  if (body == earth().name) return *folder / "drawings.geojson";
+  std::string name = body;
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
+  return *folder / fmt::format("drawings-{}.geojson", name);
+}
+
+}  // namespace terrella
