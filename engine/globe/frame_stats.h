@@ -33,6 +33,8 @@ struct FrameStats {
   bool heights_arrived = false;
   int relief_meshes = 0;   ///< patches whose relief was rebuilt
   int relief_put_off = 0;  ///< patches drawn coarser than their relief needs, for now
+  /// The air is that of an eye or a Sun nearby, because they have just moved: another frame shows the exact air.
+  bool air_put_off = false;
   double selection_ms = 0.0;
   // Totals over all layers that were drawn.
   std::size_t gpu_bytes = 0;  ///< texture slots, used or free

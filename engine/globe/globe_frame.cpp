@@ -112,7 +112,7 @@ std::size_t Globe::Impl::take_finished() {
 // Without a time there is no Sun to draw; light comes from over the viewer's shoulder.
 std::optional<SkyInput> GlobeView::Impl::sky() const {
   if (!globe->almanac || !globe->sky_on || globe->options.unlit) return std::nullopt;
-  SkyInput input{.almanac = *globe->almanac};
+  SkyInput input{.almanac = *globe->almanac, .exact_air = still};
   if (!globe->options.time) {
     input.almanac.sun = EcefDir{sun()};
     input.sun = input.moon = false;
@@ -239,6 +239,7 @@ void GlobeView::Impl::draw_picture(unsigned framebuffer, const FrameInput& input
   stats.draw_calls = counts->draw_calls;
   stats.gpu_memory_refused = stats.gpu_memory_refused || counts->objects_left_out;
   stats.triangles = counts->triangles;
+  stats.air_put_off = input.sky && memory.air && memory.air->is_rounded();
   stats.without_font = globe->renderer->without_font();
 }
 
@@ -250,6 +251,8 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   stats = {};
   frame = ++globe->frame;
   if (viewport != drawn) restore_detail();
+  still = when == Draw::when_settled || std::pair(camera, globe->options.time) == drawn_at;
+  drawn_at = {camera, globe->options.time};
   changed = false;
   drawn = viewport;
   drawn_into = framebuffer;
@@ -273,7 +276,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
 
 bool GlobeView::Impl::settled() const {
   if (frame == 0 || !status) return false;
-  if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0) return false;
+  if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0 || stats.air_put_off) return false;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::waits) || !ground.wants.empty()) return false;
   return std::ranges::all_of(stack, [](const LayerView* layer) { return layer->settled(); });
 }

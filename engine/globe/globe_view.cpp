@@ -133,7 +133,8 @@ void GlobeView::Impl::set_on_draw(std::function<void(DrawStage, const FrameMatri
 
 bool GlobeView::Impl::needs_frame() const {
   if (globe == nullptr) return false;
-  if (globe->changed || changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0) return true;
+  if (globe->changed || changed || frame == 0 || stats.heights_arrived || stats.relief_put_off > 0 || stats.air_put_off)
+    return true;
   if (globe->heights && globe->heights->has_news(heights_seen, stats.heights_pending > 0)) return true;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::has_news)) return true;
   if (globe->has_ground() && globe->ground_pictures->has_news()) return true;

@@ -94,10 +94,12 @@ struct GlobeView::Impl {
   ViewGround ground;
   View view;  ///< view for selection: the eye's, or both eyes'
   std::optional<EyePair> eyes;
-  std::uint64_t frame = 0;  ///< number of the last frame; 0: none
-  Viewport drawn;           ///< viewport of the last frame
-  unsigned drawn_into = 0;  ///< framebuffer of the last frame
-  bool changed = true;      ///< something changed since the last frame
+  std::uint64_t frame = 0;                             ///< number of the last frame; 0: none
+  Viewport drawn;                                      ///< viewport of the last frame
+  unsigned drawn_into = 0;                             ///< framebuffer of the last frame
+  std::pair<Camera, std::optional<UtcTime>> drawn_at;  ///< camera and time of the last frame
+  bool still = false;   ///< the last frame had the camera and the time of the frame before, or is for a still
+  bool changed = true;  ///< something changed since the last frame
   bool was_settled = false;
   StreamCounts heights_seen;  ///< counts of the heights' stream at the last frame
   std::function<void()> on_settled;

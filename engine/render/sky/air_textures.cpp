@@ -13,8 +13,8 @@
 namespace terrella {
 namespace {
 
-// The air is computed again when the eye's height has changed by this fraction, or the cosine of the Sun's zenith angle
-// by this amount.
+// While the eye moves, the air is computed again when the eye's height has changed by this fraction, or the cosine of
+// the Sun's zenith angle by this amount.
 constexpr double kHeightStep = 0.003;
 constexpr double kSunStep = 0.0005;
 
@@ -63,7 +63,7 @@ double sun_cosine(const Body& body, const View& view, const EcefDir& sun) {
 AirTextures::AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables)
     : body_(body), air_(air), tables_(std::move(tables)) {}
 
-bool AirTextures::fit(const View& view, const EcefDir& sun, double below_m) {
+bool AirTextures::fit(const View& view, const EcefDir& sun, double below_m, bool exact) {
   const Ellipsoid& e = body_.ellipsoid;
   const glm::dvec3 from_center = view.eye.xyz_m / semi_axes_m(e);
   const double length = glm::length(from_center);
@@ -78,9 +78,11 @@ bool AirTextures::fit(const View& view, const EcefDir& sun, double below_m) {
       eye.radius > tables().top() ? pixel_height(view, eye.radius, glm::normalize(view.eye.xyz_m)) : 0.0;
   const bool same_pixel = std::abs(pixel - pixel_) <= 0.003 * pixel_;
   const double below = below_m / e.a_m();
-  if (below == below_ && !crossed && same_pixel && moved < kHeightStep &&
-      std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep)
-    return true;
+  const bool near = below == below_ && !crossed && same_pixel && moved < kHeightStep &&
+                    std::abs(eye.sun_cos - eye_.sun_cos) < kSunStep;
+  const bool same = near && eye.radius == eye_.radius && eye.sun_cos == eye_.sun_cos && pixel == pixel_;
+  rounded_ = rounded_ || (near && !same && !exact);
+  if (same || (near && !exact)) return true;
   eye_ = eye;
   pixel_ = pixel;
   below_ = below;

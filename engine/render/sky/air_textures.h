@@ -21,9 +21,12 @@ class AirTextures {
   /// `tables` are those of `air`; fit() waits for them.
   AirTextures(const Body& body, const Atmosphere& air, std::shared_future<AirTables> tables);
 
-  /// Computes the air again if the eye, the Sun or the depth of the ground under the ellipsoid has changed. False if
-  /// the eye is at the planet's centre.
-  bool fit(const View& view, const EcefDir& sun, double below_m);
+  /// Computes the air again if the eye, the Sun or the depth of the ground under the ellipsoid has changed. Small
+  /// changes count only if `exact`. False if the eye is at the planet's centre.
+  bool fit(const View& view, const EcefDir& sun, double below_m, bool exact);
+  /// True if fit() has left out a small change since begin_frame().
+  [[nodiscard]] bool is_rounded() const { return rounded_; }
+  void begin_frame() { rounded_ = false; }
 
   [[nodiscard]] const Atmosphere& air() const { return air_; }
   [[nodiscard]] const SkyColors& sky() const { return sky_; }
@@ -50,6 +53,7 @@ class AirTextures {
   AirEye eye_{.radius = 0.0};
   double pixel_ = 0.0;
   double below_ = 0.0;  ///< depth of the ground at the limb, in radii
+  bool rounded_ = false;
   glm::dmat3 axes_{1.0};
   SkyColors sky_;
   gl::Texture sky_light_, sky_rows_, limb_light_, limb_through_, ground_through_, ground_light_;

@@ -79,6 +79,7 @@ SkyPass::SkyPass(const Body& body, const std::vector<Star>& stars)
 void SkyPass::keep_air_in(std::unique_ptr<AirTextures>& place) {
   if (atmosphere_ && !place) place = std::make_unique<AirTextures>(body_, *atmosphere_, tables_);
   air_ = place.get();
+  if (air_ != nullptr) air_->begin_frame();
 }
 
 Status SkyPass::prepare(const View& view, const SkyInput& input) {
@@ -184,7 +185,9 @@ int SkyPass::draw_air(const View& view, DrawState state) const {
 }
 
 const AirTextures* SkyPass::fit_air(const View& view, const SkyInput& input) {
-  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun, input.below_m) ? air_ : nullptr;
+  return input.atmosphere && air_ != nullptr && air_->fit(view, input.almanac.sun, input.below_m, input.exact_air)
+             ? air_
+             : nullptr;
 }
 
 int SkyPass::draw(const View& view, const SkyInput& input, DrawState state) {

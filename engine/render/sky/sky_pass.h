@@ -23,6 +23,7 @@ struct SkyInput {
   bool sun = true;
   bool moon = true;        ///< drawn only for the body "earth"
   bool atmosphere = true;  ///< false while the eye is under the ground
+  bool exact_air = true;   ///< false: the air of an eye nearby will do
   double below_m = 0.0;    ///< depth of the lowest ground that may stand at the limb, if it leaves more of the sky open
 };
 
