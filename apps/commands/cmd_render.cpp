@@ -49,11 +49,13 @@ void report(const RenderCommand& command, const Rendered& rendered) {
 }
 
 std::vector<std::string> inputs_of(const SceneOptions& scene) {
-  std::vector<std::string> inputs = {scene.objects};
+  std::vector<std::string> inputs = {scene.objects, scene.project};
   for (const Url* url : {&scene.base.address, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
     inputs.push_back(url->with_secrets());
   }
   for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
+  for (const LayerOption& layer : scene.layers) inputs.push_back(layer.source.address.with_secrets());
+  for (const ObjectsOption& objects : scene.object_layers) inputs.push_back(objects.file);
   return inputs;
 }
 
@@ -120,7 +122,6 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
                      "Wait at most this many seconds for the description of a server's tiles, and as long for tiles");
   sub.add_flag("--legend", command.legend,
                "Draw a colour bar with units for each raster of numbers, and the classes of --object-style");
-  sub.add_flag("--graticule", command.graticule, "Draw lines of latitude and longitude with labels");
   sub.add_flag("--credits", command.credits, "Write the sources of imagery and map into the upper right corner");
   sub.add_flag("--json", command.json, "Print the result as one JSON object");
   sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,10 +16,12 @@
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/options/scene_options.h"
+#include "apps/open_scene/project/read_project.h"
 #include "apps/open_scene/scene_objects.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
+#include "apps/viewer/projects/projects.h"
 #include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
@@ -35,7 +38,8 @@ constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, C map, F full screen,\n"
-    "/ search, M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel,\n"
+    "/ search, M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, J "
+    "project,\n"
     "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc twice quits.\n"
     "\n"
     "Examples:\n"
@@ -43,10 +47,11 @@ constexpr const char* kHelpFooter =
     "  terrella view cog_of_any_size.tif                  shows at once, nothing is stored\n"
     "  terrella view moon.tif --body moon                 a picture of the whole Moon, also from 0 to 360 degrees\n"
     "  terrella view --overlay flight_in_utm.tif          a picture in any projection, over the Earth\n"
+    "  terrella view glaciers.terrella                    a project that the window saved\n"
     "  terrella view earth.gpkg --camera 46,7,3e5,30,-20  the Alps from the south west";
 
 // Dark, so that objects under the ground stand out, and bright enough to look round.
-constexpr glm::vec3 kInnerSphere_srgb{0.22F, 0.28F, 0.38F};
+const glm::vec3 kInnerSphere_srgb = glm::vec3(56.0F, 71.0F, 97.0F) / 255.0F;
 
 struct ViewOptions {
   SceneOptions scene;
@@ -58,6 +63,35 @@ struct ViewOptions {
   std::string message;
 };
 
+/// True if the command line says nothing about the scene.
+bool names_no_scene(const CLI::App& command) {
+  constexpr std::array kBeside = {"--size",  "--fullscreen", "--print-camera", "--print-panels",
+                                  "--cache", "--cache-size", "--memory",       "--offline"};
+  return std::ranges::none_of(command.get_options(), [&kBeside](const CLI::Option* option) {
+    return option->count() > 0 && std::ranges::find(kBeside, option->get_name()) == kBeside.end();
+  });
+}
+
+/// Begins with the scene that was last open. A session file that cannot be read is kept under another name.
+void restore_session(ViewOptions& options) {
+  const auto file = session_file();
+  std::error_code failed;
+  if (!file || !std::filesystem::exists(*file, failed)) return;
+  SceneOptions scene = options.scene;
+  const Status read = read_project(*file, scene);
+  if (!read) {
+    std::filesystem::path copy = *file;
+    copy += ".damaged";
+    std::filesystem::rename(*file, copy, failed);
+    options.message = fmt::format("{}; it is kept as {}", read.error().message, copy.filename().string());
+    return;
+  }
+  scene.size = options.scene.size;
+  scene.project.clear();
+  options.scene = std::move(scene);
+  options.message = "The last session is restored; J begins a new one";
+}
+
 // Applies the kept settings of earlier runs; options on the command line have priority.
 void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   const auto file = settings_file();
@@ -65,31 +99,46 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   LoadedSettings loaded = load_settings(*file);
   options.first_run = loaded.first_run;
   options.message = std::move(loaded.complaint);
-  const KeptSettings& kept = options.kept = loaded.settings;
+  KeptSettings& kept = options.kept = loaded.settings;
   SceneOptions& scene = options.scene;
-  if (command.count("--size") == 0 && kept.width_px > 0 && kept.height_px > 0) {
+  if (command.count("--size") == 0 && scene.project.empty() && kept.width_px > 0 && kept.height_px > 0) {
     scene.size = {std::max(kept.width_px, kSmallestWindow.width_px),
                   std::max(kept.height_px, kSmallestWindow.height_px)};
   }
+  if (kept.restore && options.message.empty() && names_no_scene(command)) restore_session(options);
 }
 
-LayerRow heights_row(const OpenedScene& scene, const Url& address, const OpenedRasters& opened) {
-  return {.kind = LayerKind::heights,
-          .name = shown_name(address.without_query()),
-          .attribution = scene.heights->tiles()->info().attribution,
-          .read_facts = facts_reader(address, {}, {}, opened)};
+LayerRow heights_row(const OpenedScene& scene, const SceneOptions& options, const OpenedRasters& opened) {
+  LayerRow row{.kind = LayerKind::heights,
+               .name = shown_name(options.elevation.without_query()),
+               .source = {.address = options.elevation},
+               .attribution = scene.heights->tiles()->info().attribution,
+               .read_facts = facts_reader(options.elevation, {}, {}, opened)};
+  row.look.shown = options.elevation_shown;
+  return row;
 }
 
-LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const SourceOptions& base,
-                   const OpenedRasters& opened) {
-  const bool is_base = layer.id == scene.images.front().id;
-  const Url address = layer.address.empty() ? Url(scene.base.name) : layer.address;
-  const DescribedBand band{.band = base.numbers.band, .nodata = base.numbers.nodata};
-  LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .numbers = layer.numbers};
+LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const OpenedRasters& opened) {
+  const SourceOptions& said = layer.source;
+  const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
+  const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
+  LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .source = said, .numbers = layer.numbers};
   if (const auto look = scene.globe->look(layer.id)) row.look = *look;
   if (const auto attribution = scene.globe->attribution(layer.id)) row.attribution = *attribution;
-  row.read_facts = facts_reader(address, is_base ? base.place : PlaceWords{}, band, opened);
-  if (is_base) row.finest_level = scene.base.grid.max_level;
+  row.read_facts = facts_reader(address, said.place, band, opened);
+  return row;
+}
+
+LayerRow objects_row(const OpenedScene& scene, SceneObjects& layer) {
+  LayerRow row{.id = layer.id,
+               .kind = LayerKind::objects,
+               .name = std::filesystem::path(layer.option.file).filename().string(),
+               .objects = layer.option,
+               .bounds = layer.bounds};
+  row.look.shown = layer.option.shown;
+  row.look.opacity = layer.option.opacity;
+  row.style = style_of_layer(std::move(layer.features), layer.style);
+  if (const auto attribution = scene.globe->attribution(layer.id)) row.attribution = *attribution;
   return row;
 }
 
@@ -97,25 +146,23 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Sour
 std::vector<LayerRow> layer_rows(OpenedScene& scene, const SceneOptions& options, const std::optional<GeoRect>& part,
                                  const OpenedRasters& opened) {
   std::vector<LayerRow> rows;
-  if (scene.heights) rows.push_back(heights_row(scene, options.elevation, opened));
+  if (scene.heights) rows.push_back(heights_row(scene, options, opened));
   for (const SceneLayer& layer : scene.images) {
-    rows.push_back(image_row(scene, layer, options.base, opened));
-    if (layer.id == scene.images.front().id) rows.back().bounds = part;
+    rows.push_back(image_row(scene, layer, opened));
+    if (layer.id != scene.images.front().id) continue;
+    rows.back().bounds = part;
+    rows.back().finest_level = scene.base.grid.max_level;
   }
-  for (const LayerId id : scene.globe->objects()) {
-    rows.push_back({.id = id,
-                    .kind = LayerKind::objects,
-                    .name = std::filesystem::path(options.objects).filename().string(),
-                    .bounds = {}});
-    if (const auto attribution = scene.globe->attribution(id)) rows.back().attribution = *attribution;
-    rows.back().style = style_of_layer(std::move(scene.objects.features));
-  }
+  for (SceneObjects& layer : scene.objects) rows.push_back(objects_row(scene, layer));
   return rows;
 }
+
+std::string said_by(const Status& status) { return status ? std::string() : status.error().message; }
 
 /// Puts the files of the command line into the list of recent files; the complaint if this fails.
 std::string remember(const SceneOptions& scene) {
   std::vector<std::string> opened;
+  if (!scene.project.empty()) return said_by(remember_opened(std::array{scene.project}));
   std::vector<Url> urls = {scene.base.address};
   for (const OverlayOption& overlay : scene.overlays) urls.push_back(overlay.tile_set);
   urls.push_back(scene.elevation);
@@ -123,15 +170,35 @@ std::string remember(const SceneOptions& scene) {
   for (const Url& url : urls) opened.push_back(url.with_secrets());
   opened.push_back(scene.objects);
   std::erase(opened, std::string());
-  const Status kept = remember_opened(opened);
-  return kept ? std::string() : kept.error().message;
+  return said_by(remember_opened(opened));
 }
 
-int view(const ViewOptions& options) {
-  if (const Status found = find_imagery(options.scene.base); !found) return fail("view", found.error().message);
-  // The window opens before the cutting, so that a missing display is reported at once.
-  auto window = Window::create("Terrella", options.scene.size);
-  if (!window) return fail("view", window.error().message);
+/// The end of an exploration.
+struct Explored {
+  std::optional<std::filesystem::path> next{};  ///< see Viewer::run()
+  SceneOptions scene;                           ///< as it was at the end
+};
+
+/// Message for the start: the complaint about the settings, or what a project leaves out, or nothing.
+std::string first_message(const ViewOptions& options, const OpenedScene& scene) {
+  if (!options.message.empty()) return options.message;
+  if (scene.left_out.empty()) return remember(options.scene);
+  if (scene.left_out.size() == 1) return scene.left_out.front();
+  return fmt::format("{}; {} more layers are left out", scene.left_out.front(), scene.left_out.size() - 1);
+}
+
+Result<OpenedScene> open_for_window(const SceneOptions& wanted) {
+  return open_scene(wanted, [&wanted](const Body& body) -> Result<GlobeOptions> {
+    check_map(wanted, body);
+    GlobeOptions with_sky = globe_options(wanted, body);
+    add_sky_data(with_sky, true);  // the user may choose a time
+    add_label_font(with_sky);
+    return with_sky;
+  });
+}
+
+/// Opens a scene in the window and lets the user explore it.
+Result<Explored> explore(Window& window, const ViewOptions& options) {
   // Signals stop an unfinished cut cleanly; the window itself may be ended at any time.
   std::optional<StopSignals> signals(std::in_place);
   std::vector<std::shared_ptr<GrowingCut>> cuts;
@@ -140,44 +207,86 @@ int view(const ViewOptions& options) {
   wanted.keep_features = true;
   auto opened = std::make_unique<OpenedRasters>();
   wanted.base.opened = opened.get();
-  auto scene = open_scene(wanted, [&](const Body& body) -> Result<GlobeOptions> {
-    check_map(options.scene, body);
-    GlobeOptions with_sky = globe_options(options.scene, body);
-    add_sky_data(with_sky, true);  // the user may choose a time
-    add_label_font(with_sky);
-    return with_sky;
-  });
-  if (!scene) return fail("view", scene.error().message);
-  if (StopSignals::came()) return fail("view", "stopped");
+  auto scene = open_for_window(wanted);
+  if (!scene) return scene.error();
+  if (StopSignals::came()) return Error{"stopped"};
   signals.reset();
-  (*window)->show();
-  if (options.full_screen) (*window)->toggle_full_screen();
-  const auto part = part_with_data(options.scene.base.address, scene->base.grid.bounds);
-  const Camera asked =
-      options.scene.camera.value_or(default_camera(part, scene->body.ellipsoid, (*window)->framebuffer()));
+  window.show();
+  if (options.full_screen) window.toggle_full_screen();
+  const auto part = part_with_data(scene->images.front().source.address, scene->base.grid.bounds);
+  const Camera asked = wanted.camera.value_or(default_camera(part, scene->body.ellipsoid, window.framebuffer()));
   // Later heights raise the eye with the ground, as everywhere in the window.
-  const Camera start = out_of_ground(asked, 0.0, may_be_underground(options.scene));
+  const Camera start = out_of_ground(asked, 0.0, may_be_underground(wanted));
   tell_of_move("view", asked, start);
-  auto rows = layer_rows(*scene, options.scene, part, *opened);
+  auto rows = layer_rows(*scene, wanted, part, *opened);
   const std::vector<std::weak_ptr<GrowingCut>> growing(cuts.begin(), cuts.end());
   // From here on the globe alone owns what the layers read, so that removing a layer ends its work.
   opened.reset();
   cuts.clear();
-  SourceOptions files = options.scene.base;
-  files.body = scene->body;
+  SceneOptions explored = options.scene;
+  explored.base.body = scene->body;
+  for (LayerRow& row : rows) row.source.cuts = nullptr, row.source.opened = nullptr;
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .print_panels = options.print_panels,
                                      .cuts = growing,
                                      .layers = std::move(rows),
                                      .heights = scene->heights,
-                                     .places = options.scene.places,
-                                     .files = files,
-                                     .map = options.scene.map.value_or(options.kept.map && !options.scene.unlit),
+                                     .scene = explored,
+                                     .map = wanted.map.value_or(options.kept.map && !wanted.unlit),
                                      .kept = options.kept,
                                      .first_run = options.first_run,
-                                     .message = options.message.empty() ? remember(options.scene) : options.message};
-  Viewer(**window, *scene->globe, viewer_options).run();
+                                     .message = first_message(options, *scene)};
+  Viewer viewer(window, *scene->globe, viewer_options);
+  auto next = viewer.run();
+  return Explored{.next = std::move(next), .scene = viewer.scene()};
+}
+
+/// The included Earth in the window of a scene, with its limits.
+SceneOptions new_scene(const SceneOptions& before, Viewport window) {
+  SceneOptions scene;
+  scene.size = window;
+  scene.base = options_beside(before.base, {});
+  scene.base.body.reset();
+  scene.memory_mb = before.memory_mb;
+  scene.surface.inner_sphere_srgb = kInnerSphere_srgb;
+  return scene;
+}
+
+/// The options for the scene that follows an explored one.
+Result<ViewOptions> next_options(const ViewOptions& options, const Explored& explored, const Window& window) {
+  ViewOptions next = options;
+  next.scene = new_scene(options.scene, window.framebuffer());
+  next.full_screen = false;  // the window is as the user left it
+  next.first_run = false;
+  next.message.clear();
+  if (const auto file = settings_file()) next.kept = load_settings(*file).settings;
+  if (explored.next->empty()) return next;
+  if (const Status read = read_project(*explored.next, next.scene); !read) return read.error();
+  return next;
+}
+
+int view(ViewOptions options) {
+  if (!options.scene.leave_out_faulty && !options.scene.project_fault) {
+    if (const Status found = find_imagery(options.scene.base); !found) return fail("view", found.error().message);
+  }
+  // The window opens before the cutting, so that a missing display is reported at once.
+  auto window = Window::create("Terrella", options.scene.size);
+  if (!window) return fail("view", window.error().message);
+  auto explored = explore(**window, options);
+  if (!explored) return fail("view", explored.error().message);
+  while (explored->next) {
+    const auto next = next_options(options, *explored, **window);
+    auto later = next ? explore(**window, *next) : Result<Explored>(next.error());
+    options = next ? *next : options;
+    if (!later) {  // the scene before comes back
+      options.scene = explored->scene;
+      options.message = later.error().message;
+      later = explore(**window, options);
+    }
+    if (!later) return fail("view", later.error().message);
+    explored = std::move(later);
+  }
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 #include "geo/camera.h"
 #include "geo/coordinates.h"
 #include "geo/ellipsoid.h"
+#include "geo/objects.h"
 #include "streaming/url.h"
 
 // Views of a part of the planet. thread: any
@@ -18,6 +19,9 @@ namespace terrella {
 /// the tiles of a local set: of its first level with tiles of a few degrees. Nullopt for the planet, and if many tiles
 /// would have to be looked up. Blocks.
 [[nodiscard]] std::optional<GeoRect> part_with_data(const Url& tile_set, const GeoRect& bounds);
+/// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
+/// the planet.
+[[nodiscard]] std::optional<GeoRect> bounds_of(const ObjectScene& scene);
 /// Looks straight down on the middle, from a height that shows the whole rectangle. `aspect` is the picture's width
 /// divided by its height.
 [[nodiscard]] Camera camera_over(const GeoRect& bounds, const Ellipsoid& body, Angle fov_y, double aspect);

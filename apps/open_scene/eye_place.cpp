@@ -42,7 +42,7 @@ Status check_eye(const SceneOptions& options, const Body& body, Viewport picture
                            eye_m, lowest_m, highest_m, why)};
 }
 
-bool may_be_underground(const SceneOptions& options) { return options.surface.alpha < 1.0 || !options.objects.empty(); }
+bool may_be_underground(const SceneOptions& options) { return options.surface.alpha < 1.0 || options.has_objects(); }
 
 Camera out_of_ground(Camera camera, double ground_m, bool may_be_under) {
   const double over_m = camera.eye.height_m - ground_m;

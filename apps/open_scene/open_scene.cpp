@@ -6,6 +6,7 @@
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/scene_objects.h"
+#include "apps/process/console.h"
 
 namespace terrella {
 namespace {
@@ -25,76 +26,169 @@ Result<ImageryLayer> open_base(SourceOptions base) {
   return open_layer(base);
 }
 
-Status add_layer(OpenedScene& scene, const SceneOptions& options, const Url& address, const ImageLook& look) {
-  if (address.empty()) return Done{};
-  auto tiles = open_imagery(options_beside(options.base, address));
-  if (!tiles) return tiles.error();
-  const auto added = scene.globe->add_imagery(*std::move(tiles), look);
-  if (!added) return added.error();
-  scene.images.push_back({.id = *added, .address = address});
+/// Opens the layers of a scene one after another.
+class SceneOpener {
+ public:
+  explicit SceneOpener(SceneOptions options) : options_(std::move(options)) {}
+
+  Result<OpenedScene> open(const PrepareGlobe& prepare);
+
+ private:
+  Result<ImageryLayer> open_lowest();
+  Status open_heights();
+  Status make_globe(const GlobeOptions& options, ImageryLayer base);
+  Status add_image(const SourceOptions& source, const ImageLook& look);
+  Status add_pictures(const Url& address, const ImageLook& look);
+  Status add_images();
+  Status add_object_layers();
+  Status leave_out(const Error& why);
+
+  SceneOptions options_;
+  OpenedScene scene_;
+};
+
+/// Reports a layer of a project that cannot be opened; any other is an error.
+Status SceneOpener::leave_out(const Error& why) {
+  if (!options_.leave_out_faulty) return why;
+  scene_.left_out.push_back(why.message);
+  print_message("{}; the layer is left out\n", why.message);
   return Done{};
 }
 
-/// The overlays, then --night, then --clouds on top.
-Status add_layers(OpenedScene& scene, const SceneOptions& options) {
-  for (const OverlayOption& overlay : options.overlays) {
-    auto added = add_overlay(*scene.globe, options, overlay);
-    if (!added) return added.error();
-    scene.images.push_back(*std::move(added));
+// The lowest image of a project that can be opened is its base.
+Result<ImageryLayer> SceneOpener::open_lowest() {
+  for (;;) {
+    auto base = open_base(options_.base);
+    if (base || options_.base.address.empty()) return base;
+    if (const Status left = leave_out(base.error()); !left) return left.error();
+    auto& layers = options_.layers;
+    const bool has_next = !layers.empty();
+    options_.base = with_words(options_.base, has_next ? layers.front().source : SourceOptions{});
+    options_.base_look = has_next ? layers.front().look : ImageLook{};
+    if (has_next) layers.erase(layers.begin());
   }
-  if (Status night = add_layer(scene, options, options.night, {.daylight = Daylight::night}); !night) return night;
-  return add_layer(
-      scene, options, options.clouds.tile_set,
-      {.opacity = options.clouds.opacity, .alpha = AlphaFrom::brightness, .height_m = options.cloud_height_m});
 }
 
-Status make_globe(OpenedScene& scene, const GlobeOptions& options, ImageryLayer base, const Url& address) {
+Status SceneOpener::open_heights() {
+  auto heights = open_elevation(options_);
+  if (!heights) return leave_out(heights.error());
+  scene_.heights = *std::move(heights);
+  return Done{};
+}
+
+Status SceneOpener::make_globe(const GlobeOptions& options, ImageryLayer base) {
   auto globe = Globe::create(options);
   if (!globe) return globe.error();
-  scene.globe = *std::move(globe);
-  if (Status raised = scene.globe->set_elevation(scene.heights); !raised) return raised;
-  const auto added = scene.globe->add_imagery(std::move(base.tiles), base.look);
+  scene_.globe = *std::move(globe);
+  const auto heights = options_.elevation_shown ? scene_.heights : std::nullopt;
+  if (Status raised = scene_.globe->set_elevation(heights); !raised) return raised;
+  if (options.time) {
+    if (Status lit = scene_.globe->set_night_lights(options_.night_lights); !lit) return lit;
+  }
+  ImageLook look = options_.base_look;
+  look.numbers = base.look.numbers;
+  const auto added = scene_.globe->add_imagery(std::move(base.tiles), look);
   if (!added) return added.error();
-  scene.images.push_back({.id = *added, .address = address, .numbers = std::move(base.numbers)});
+  scene_.images.push_back({.id = *added, .numbers = std::move(base.numbers), .source = options_.base});
   return Done{};
+}
+
+Status SceneOpener::add_image(const SourceOptions& source, const ImageLook& look) {
+  auto added = add_layer(*scene_.globe, source, look);
+  if (!added) return leave_out(added.error());
+  scene_.images.push_back(*std::move(added));
+  return Done{};
+}
+
+Status SceneOpener::add_pictures(const Url& address, const ImageLook& look) {
+  if (address.empty()) return Done{};
+  const SourceOptions source = options_beside(options_.base, address);
+  auto tiles = open_imagery(source);
+  if (!tiles) return tiles.error();
+  const auto added = scene_.globe->add_imagery(*std::move(tiles), look);
+  if (!added) return added.error();
+  scene_.images.push_back({.id = *added, .source = source});
+  return Done{};
+}
+
+/// The overlays, then --night, then --clouds, then the layers of a project.
+Status SceneOpener::add_images() {
+  for (const OverlayOption& overlay : options_.overlays) {
+    auto added = add_overlay(*scene_.globe, options_, overlay);
+    if (!added) return added.error();
+    scene_.images.push_back(*std::move(added));
+  }
+  if (Status night = add_pictures(options_.night, {.daylight = Daylight::night}); !night) return night;
+  const OverlayOption& clouds = options_.clouds;
+  const ImageLook as_clouds{
+      .opacity = clouds.opacity, .alpha = AlphaFrom::brightness, .height_m = options_.cloud_height_m};
+  if (Status above = add_pictures(clouds.tile_set, as_clouds); !above) return above;
+  for (const LayerOption& layer : options_.layers) {
+    const SourceOptions source = with_words(options_beside(options_.base, layer.source.address), layer.source);
+    if (Status added = add_image(source, layer.look); !added) return added;
+  }
+  return Done{};
+}
+
+Status SceneOpener::add_object_layers() {
+  std::vector<ObjectsOption> layers = options_.object_layers;
+  if (!options_.objects.empty())
+    layers.insert(layers.begin(), {.file = options_.objects, .style = options_.object_style});
+  for (const ObjectsOption& option : layers) {
+    auto added = add_objects(*scene_.globe, option, options_.keep_features);
+    if (!added) {
+      if (const Status left = leave_out(added.error()); !left) return left;
+      continue;
+    }
+    scene_.all_objects = scene_.all_objects && added->faultless;
+    scene_.objects.push_back(*std::move(added));
+  }
+  return Done{};
+}
+
+Result<OpenedScene> SceneOpener::open(const PrepareGlobe& prepare) {
+  if (options_.project_fault) return *options_.project_fault;
+  auto base = open_lowest();
+  if (!base) return base.error();
+  const auto body = scene_body(options_, base->tiles->info());
+  if (!body) return body.error();
+  options_.base.body = scene_.body = *body;
+  scene_.base = base->tiles->info();
+  if (const Status raised = open_heights(); !raised) return raised.error();
+  if (const Status eye = check_eye(options_, *body, options_.size); !eye) {
+    throw CLI::ValidationError("--camera", eye.error().message);
+  }
+  const auto prepared = prepare(*body);
+  if (!prepared) return prepared.error();
+  if (Status made = make_globe(*prepared, *std::move(base)); !made) return made.error();
+  set_paper_texturing(*scene_.globe, options_);
+  if (Status added = add_images(); !added) return added.error();
+  if (Status added = add_object_layers(); !added) return added.error();
+  scene_.all_objects = scene_.all_objects && scene_.left_out.empty();
+  return std::move(scene_);
 }
 
 }  // namespace
+
+Result<SceneLayer> add_layer(Globe& globe, const SourceOptions& source, const ImageLook& look) {
+  auto opened = open_layer(source);
+  if (!opened) return opened.error();
+  ImageLook wanted = look;
+  wanted.numbers = opened->look.numbers;
+  const auto added = globe.add_imagery(opened->tiles, wanted);
+  if (!added) return Error{source.address.redacted() + ": " + added.error().message};
+  return SceneLayer{.id = *added, .numbers = std::move(opened->numbers), .source = source};
+}
 
 Result<SceneLayer> add_overlay(Globe& globe, const SceneOptions& options, const OverlayOption& overlay) {
   SourceOptions source = options_beside(options.base, overlay.tile_set);
   source.projection = options.overlay_projection;
   if (options.base.address.empty()) source.numbers = options.base.numbers;
-  auto opened = open_layer(source);
-  if (!opened) return opened.error();
-  opened->look.opacity = overlay.opacity;
-  const auto added = globe.add_imagery(opened->tiles, opened->look);
-  if (!added) return Error{overlay.tile_set.redacted() + ": " + added.error().message};
-  return SceneLayer{.id = *added, .address = overlay.tile_set, .numbers = std::move(opened->numbers)};
+  return add_layer(globe, source, {.opacity = overlay.opacity});
 }
 
 Result<OpenedScene> open_scene(SceneOptions options, const PrepareGlobe& prepare) {
-  auto base = open_base(options.base);
-  if (!base) return base.error();
-  const auto body = scene_body(options, base->tiles->info());
-  if (!body) return body.error();
-  options.base.body = *body;
-  OpenedScene scene{.body = *body, .base = base->tiles->info()};
-  auto heights = open_elevation(options);
-  if (!heights) return heights.error();
-  scene.heights = *std::move(heights);
-  if (const Status eye = check_eye(options, *body, options.size); !eye) {
-    throw CLI::ValidationError("--camera", eye.error().message);
-  }
-  const auto prepared = prepare(*body);
-  if (!prepared) return prepared.error();
-  if (Status made = make_globe(scene, *prepared, *std::move(base), options.base.address); !made) return made.error();
-  set_paper_texturing(*scene.globe, options);
-  if (Status added = add_layers(scene, options); !added) return added.error();
-  auto objects = add_objects(*scene.globe, options);
-  if (!objects) return objects.error();
-  scene.objects = *std::move(objects);
-  return scene;
+  return SceneOpener(std::move(options)).open(prepare);
 }
 
 }  // namespace terrella

@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/sky_data.h"
 #include "apps/process/console.h"
 #include "apps/process/data_dir.h"
 #include "streaming/file_bytes.h"
+#include "streaming/objects/classes/class_style.h"
+#include "streaming/objects/gltf_model.h"
 #include "streaming/objects/vector_objects.h"
 
 namespace terrella {
@@ -36,24 +39,51 @@ void add_label_font(GlobeOptions& options) {
   }
 }
 
-Result<SceneObjects> add_objects(Globe& globe, const SceneOptions& options) {
-  SceneObjects objects;
-  if (options.objects.empty()) return objects;
-  if (!options.object_style.empty()) {
-    Result<FeatureStyle> loaded = FeatureStyle::load(options.object_style);
+Result<ObjectFile> read_object_layer(const ObjectsOption& option, const FeatureStyle& style) {
+  if (!option.model_place) return read_objects(option.file, ObjectId{1}, style);
+  Result<ModelFile> model = read_gltf_model(option.file);
+  if (!model) return model.error();
+  ObjectFile file{.scene = {}, .complaints = std::move(model->complaints), .complaints_left_out = 0};
+  file.scene.meshes.push_back({.model = std::move(model->model), .place = *option.model_place});
+  return file;
+}
+
+namespace {
+
+/// Draws a layer in the style that the window gave it, over the style of its file.
+Status restyle(Globe& globe, SceneObjects& layer, const LayerFeatures& features) {
+  if (layer.option.style_over.empty()) return Done{};
+  Result<FeatureStyle> style = overlaid(layer.style, layer.option.style_over);
+  if (!style) return Error{layer.option.file + ": " + style.error().message};
+  layer.style = *std::move(style);
+  return globe.edit_objects(layer.id, restyled(features.parts, layer.style));
+}
+
+}  // namespace
+
+Result<SceneObjects> add_objects(Globe& globe, const ObjectsOption& option, bool keep_features) {
+  SceneObjects layer{.option = option};
+  if (!option.style.empty()) {
+    Result<FeatureStyle> loaded = FeatureStyle::load(option.style);
     if (!loaded) return loaded.error();
-    objects.style = *std::move(loaded);
+    layer.style = *std::move(loaded);
   }
-  const Result<ObjectFile> file = read_objects(options.objects, ObjectId{1}, objects.style);
+  Result<ObjectFile> file = read_object_layer(option, layer.style);
   if (!file) return file.error();
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
-  const auto added = globe.add_objects(file->scene);
+  layer.faultless = file->complaints.empty();
+  layer.bounds = bounds_of(file->scene);
+  const bool needs_features = keep_features || !option.style_over.empty();
+  LayerFeatures features = needs_features ? layer_features(file->scene, layer.style) : LayerFeatures{};
+  const auto added = globe.add_objects(std::move(file->scene), option.shown);
   if (!added) return added.error();
-  if (const Status credited = globe.set_attribution(*added, file->attribution); !credited) return credited.error();
-  objects.all = file->complaints.empty();
-  if (options.keep_features) objects.features = layer_features(file->scene, objects.style);
-  return objects;
+  layer.id = *added;
+  if (const Status done = restyle(globe, layer, features); !done) return done.error();
+  if (const Status faded = globe.fade_objects(layer.id, option.opacity); !faded) return faded.error();
+  if (const Status told = globe.set_attribution(layer.id, file->attribution); !told) return told.error();
+  if (keep_features) layer.features = std::move(features);
+  return layer;
 }
 
 std::vector<std::string> fill_complaints(const Globe& globe, LayerId layer, const std::string& file) {

@@ -17,6 +17,8 @@
 #include "apps/process/console.h"
 #include "apps/process/process.h"
 #include "apps/process/stop_signals.h"
+#include "apps/viewer/draw/drawing_file.h"
+#include "apps/viewer/draw/drawing_scene.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/map_painter.h"
@@ -94,16 +96,17 @@ Status check_drawing_memory(Viewport size) {
 }
 
 /// The classes of the objects and the layers of numbers, the highest first.
-std::vector<LegendItem> legend_of(const OpenedScene& scene, const SceneOptions& options) {
+std::vector<LegendItem> legend_of(const OpenedScene& scene) {
   std::vector<LegendItem> items;
-  if (const auto classes = classes_of(scene.objects.style)) {
-    items.push_back(class_legend(std::filesystem::path(options.objects).stem().string(), *classes));
+  for (auto at = scene.objects.rbegin(); at != scene.objects.rend(); ++at) {
+    const auto classes = at->option.shown ? classes_of(at->style) : std::nullopt;
+    if (classes) items.push_back(class_legend(std::filesystem::path(at->option.file).filename().string(), *classes));
   }
   for (auto at = scene.images.rbegin(); at != scene.images.rend(); ++at) {
     const SceneLayer& layer = *at;
     const auto look = layer.numbers ? scene.globe->look(layer.id) : Result<ImageLook>(Error{});
-    if (!look || !look->numbers) continue;
-    const std::string name = std::filesystem::path(layer.address.without_query()).stem().string();
+    if (!look || !look->numbers || !look->shown) continue;
+    const std::string name = std::filesystem::path(layer.source.address.without_query()).filename().string();
     items.push_back({.title = legend_title(name, *layer.numbers), .unit = layer.numbers->unit, .look = *look->numbers});
   }
   return items;
@@ -125,7 +128,7 @@ GlobeOptions picture_options(const RenderCommand& command, const Body& body) {
   options.upload_time_per_frame = std::chrono::seconds(1);
   options.relief_meshes_per_frame = std::numeric_limits<int>::max();
   add_sky_data(options, options.time.has_value());
-  if (command.more_objects || !command.scene.objects.empty()) add_label_font(options);
+  if (command.more_objects || command.scene.has_objects()) add_label_font(options);
   return options;
 }
 
@@ -144,6 +147,7 @@ struct ScenePicture::Parts {
   Result<GlobeOptions> prepare(const Body& body);
   Status open();
   void check_fills();
+  Status add_drawings();
   /// The part of the planet with data, which takes a look at the tiles: once.
   const std::optional<GeoRect>& with_data();
 };
@@ -161,11 +165,23 @@ Status ScenePicture::Parts::open() {
   if (!opened) return opened.error();
   scene = *std::move(opened);
   command.scene.base.body = scene.body;
+  if (const Status drawn = add_drawings(); !drawn) return drawn.error();
   auto painter = open_map(command.scene, scene.body);
   if (!painter) return painter.error();
   map = *std::move(painter);
   target = std::make_unique<OffscreenTarget>(command.scene.size);
   return Done{};
+}
+
+/// Adds the user's marks of a project.
+Status ScenePicture::Parts::add_drawings() {
+  if (command.scene.drawings.empty()) return Done{};
+  const auto marks = parse_drawing(command.scene.drawings, command.scene.project + ": \"drawings\"");
+  if (!marks) return marks.error();
+  for (const std::string& complaint : marks->complaints) print_message("{}\n", complaint);
+  scene.all_objects = scene.all_objects && marks->complaints.empty();
+  const auto added = scene.globe->add_objects(drawing_scene(marks->drawing, 1.0F));
+  return added ? Status(Done{}) : added.error();
 }
 
 std::string name_of(const MissingTile& tile) {
@@ -198,10 +214,10 @@ Camera ScenePicture::first_camera() const {
   return default_camera(parts_->with_data(), parts_->scene.body.ellipsoid, said.size);
 }
 
-bool ScenePicture::has_all_objects() const { return parts_->scene.objects.all; }
+bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
 
 const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
-  if (!part) part = part_with_data(command.scene.base.address, scene.base.grid.bounds);
+  if (!part) part = part_with_data(scene.images.front().source.address, scene.base.grid.bounds);
   return *part;
 }
 
@@ -209,9 +225,11 @@ const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
 void ScenePicture::Parts::check_fills() {
   if (std::exchange(checked_fills, true)) return;
   for (const LayerId layer : scene.globe->objects()) {
-    for (const std::string& complaint : fill_complaints(*scene.globe, layer, command.scene.objects)) {
+    const auto named = std::ranges::find(scene.objects, layer, &SceneObjects::id);
+    const std::string file = named == scene.objects.end() ? std::string() : named->option.file;
+    for (const std::string& complaint : fill_complaints(*scene.globe, layer, file)) {
       print_message("{}\n", complaint);
-      scene.objects.all = false;
+      scene.all_objects = false;
     }
   }
 }
@@ -234,8 +252,8 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   }
   std::vector<std::string> thanks = globe.attributions();
   if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
-  PictureOverlay overlay{.graticule = own.command.graticule, .map = own.map.get()};
-  if (own.command.legend) overlay.legend = legend_of(own.scene, own.command.scene);
+  PictureOverlay overlay{.graticule = own.command.scene.graticule.value_or(false), .map = own.map.get()};
+  if (own.command.legend) overlay.legend = legend_of(own.scene);
   if (own.command.credits) overlay.credits = thanks;
   if (const Status drawn = draw_over_picture(globe, framebuffer, size, overlay); !drawn) {
     return Error{where + drawn.error().message};

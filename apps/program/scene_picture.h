@@ -17,7 +17,6 @@ struct RenderCommand {
   std::string output;  ///< empty: no file is written
   bool json = false;
   bool legend = false;
-  bool graticule = false;
   bool credits = false;
   bool more_objects = false;  ///< objects with labels may be added to the globe later
 };

@@ -35,10 +35,10 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       ui_(window),
       navigator_(options.camera, globe.ground(), window.framebuffer()),
       input_(window, ui_, navigator_, actions()),
-      layers_(context_, options.layers, options.heights, options.files, switches()),
+      layers_(context_, options.layers, options.heights, options.scene.base, switches()),
       modes_(context_, actions(), [this](const Action& action) { action.run(*this); }),
       cutting_(context_, std::exchange(options_.cuts, {})) {
-  graticule_.is_on() = options.kept.graticule;
+  graticule_.is_on() = options.scene.graticule.value_or(options.kept.graticule);
   map_.is_on() = options.map;
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
@@ -47,36 +47,10 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   if (options.first_run) messages_.say(kHint, kHintTime);
   if (!options.message.empty()) messages_.say(options.message);
   input_.set_dragger([this](DragStep step, glm::dvec2 at_px) { return draw_.drag(step, at_px); });
-  draw_.restore();
+  draw_.restore(options.scene);
 }
 
-KeptSettings Viewer::now_kept() {
-  const Viewport size = window_.windowed();
-  return {.width_px = size.width_px,
-          .height_px = size.height_px,
-          .panel = modes_.is_open(),
-          .layers = layers_.is_open(),
-          .graticule = graticule_.is_on(),
-          .map = map_.is_on()};
-}
-
-std::vector<LayerSwitch> Viewer::switches() {
-  std::vector<LayerSwitch> switches{{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}};
-  if (map_.exists()) switches.push_back({"Map", "C: coastlines, borders and names.", map_.is_on()});
-  return switches;
-}
-
-// Saves the settings. A failure is reported once, because the settings then count as saved.
-void Viewer::keep_settings() {
-  const KeptSettings now = changed_since(options_.kept, started_, now_kept());
-  if (now == saved_) return;
-  saved_ = now;
-  const auto file = settings_file();
-  if (!file) return;
-  if (const Status saved = save_settings(*file, now); !saved) messages_.say(saved.error().message);
-}
-
-void Viewer::run() {
+std::optional<std::filesystem::path> Viewer::run() {
   while (!is_closed()) {
     wait_for_work();
     handle_events();
@@ -96,6 +70,8 @@ void Viewer::run() {
     print_at_rest();
   }
   keep_settings();
+  projects_.keep_session();
+  return projects_.next();
 }
 
 // Reports once that the zoom has reached the finest texels.
@@ -118,7 +94,7 @@ void Viewer::handle_events() {
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
-  for (std::filesystem::path& file : input_.take_dropped()) layers_.open(std::move(file));
+  for (std::filesystem::path& file : input_.take_dropped()) open_file(std::move(file));
   cutting_.add(layers_.take_opened());
   if (layers_.take_open_wish()) open_.toggle();
   follow_panels();
@@ -159,6 +135,7 @@ double Viewer::pause_s(Seconds waited) const {
 void Viewer::wait_for_work() {
   if (work()) return input_.listen();
   keep_settings();
+  projects_.keep_session();
   const Seconds start = Input::now();
   do {
     const double pause = balloon_.seconds_left(messages_.seconds_left(pause_s(Input::now() - start)));
@@ -175,7 +152,7 @@ std::string Viewer::job() const {
 
 void Viewer::draw_frame(Viewport framebuffer) {
   const auto start = Clock::now();
-  globe_.set_camera(navigator_.camera());
+  globe_.set_camera(nameable(navigator_.camera()));
   if (pictures_.is_drawing()) {
     pictures_.draw_picture(framebuffer);
     frame_.drop();                                              // the globe was drawn at another size
@@ -269,7 +246,7 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 7> newest{&pictures_, &search_, &open_, &bookmarks_, &draw_, &layers_, &modes_};
+  std::array<Panel*, 8> newest{&pictures_, &search_, &open_, &projects_, &bookmarks_, &draw_, &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

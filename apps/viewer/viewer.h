@@ -28,6 +28,7 @@
 #include "apps/viewer/parts/place_menu.h"
 #include "apps/viewer/parts/search.h"
 #include "apps/viewer/parts/view_modes.h"
+#include "apps/viewer/projects/projects.h"
 #include "apps/viewer/tools/kept_settings.h"
 #include "apps/viewer/tools/view_history.h"
 #include "apps/viewer/window.h"
@@ -42,12 +43,11 @@ struct ViewerOptions {
   std::vector<std::weak_ptr<GrowingCut>> cuts = {};  ///< in the background; the layers own them
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
-  std::filesystem::path places = {};            ///< GeoJSON for search and map; empty: the program's cities
-  SourceOptions files = {};                     ///< options for opening dropped files
-  bool map = true;                              ///< show the map, if there is one of the body
-  KeptSettings kept = {};                       ///< settings from the file
-  bool first_run = false;                       ///< true: show a hint
-  std::string message = {};                     ///< first message; may be empty
+  SceneOptions scene = {};   ///< options of the scene: how files are opened, and what the window cannot change
+  bool map = true;           ///< show the map, if there is one of the body
+  KeptSettings kept = {};    ///< settings from the file
+  bool first_run = false;    ///< true: show a hint
+  std::string message = {};  ///< first message; may be empty
 };
 
 /// The window's main loop: handles events, draws frames, and wires the parts of the viewer. Draws only on changes,
@@ -57,8 +57,11 @@ class Viewer {
   /// The window must be shown and its context current; window and globe must outlive the viewer.
   Viewer(Window& window, Globe& globe, const ViewerOptions& options);
 
-  /// Runs until the user quits.
-  void run();
+  /// Runs until the user quits, or opens a project. Returns the project, or an empty path for the Earth as at the first
+  /// start; nullopt: the user has quit.
+  std::optional<std::filesystem::path> run();
+  /// The scene as the window shows it, as a project.
+  [[nodiscard]] SceneOptions scene() const;
 
   /// All actions of the user, in the order of the list of shortcuts. thread: any
   [[nodiscard]] static std::span<const Action> actions();
@@ -104,6 +107,7 @@ class Viewer {
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_at_rest();
+  void open_file(std::filesystem::path file);
 
   Window& window_;
   Globe& globe_;
@@ -117,14 +121,15 @@ class Viewer {
   const ViewerContext context_{window_, globe_, navigator_, ui_, messages_};
   GlobeFrame frame_;
   GraticuleLines graticule_{context_};
-  MapLayer map_{context_, options_.places};
+  MapLayer map_{context_, options_.scene.places};
   BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_, [this] { return overlay(); }};
-  Search search_{context_, options_.places};
+  Search search_{context_, options_.scene.places};
   FrameGraph frame_graph_{context_};
   Layers layers_;
-  OpenDialog open_{context_, [this](std::filesystem::path file) { layers_.open(std::move(file)); }};
+  OpenDialog open_{context_, [this](std::filesystem::path file) { open_file(std::move(file)); }};
+  Projects projects_{context_, [this] { return scene(); }, options_.scene.project, options_.kept.restore};
   ViewModes modes_;
   Draw draw_{context_};
   Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); }};
@@ -141,8 +146,8 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 13> parts_{&help_, &menu_,   &pictures_, &search_,  &open_,    &bookmarks_, &balloon_,
-                                     &draw_, &layers_, &modes_,    &measure_, &cutting_, &map_};
+  const std::array<Part*, 14> parts_{&help_,    &menu_, &pictures_, &search_, &open_,    &projects_, &bookmarks_,
+                                     &balloon_, &draw_, &layers_,   &modes_,  &measure_, &cutting_,  &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

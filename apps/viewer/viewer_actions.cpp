@@ -69,9 +69,10 @@ void Viewer::quit() { glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE); }
 
 // Drawings that cannot be kept are told before they are lost.
 bool Viewer::is_closed() {
-  if (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) return false;
+  if (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE && !projects_.next()) return false;
   if (draw_.may_quit()) return true;
   glfwSetWindowShouldClose(window_.handle(), GLFW_FALSE);
+  projects_.stay();
   panel_frames_ = kPanelFrames;  // shows the message
   return false;
 }
@@ -244,6 +245,8 @@ constinit const Action Viewer::kActions[] = {
      .flags = Action::ctrl | Action::types,
      .button = "Open",
      .mouse = "menu, drop a file"},
+    {"J", "project: save, restore at the next start, new", [](V v) { v.projects_.toggle(); }, U"j", 0, 0, Action::types,
+     "Project"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
     {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
     {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},

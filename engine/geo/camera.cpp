@@ -1,5 +1,7 @@
 #include "geo/camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +49,16 @@ glm::dvec2 slopes(const View& view, glm::dvec2 pixel_px) {
           (0.5 * view.viewport.height_px - pixel_px.y) * per_px};
 }
 
+/// The degrees that give the angle exactly, if there are any next to the rounded ones.
+double degrees_of(Angle angle) {
+  const double rounded = angle.deg();
+  const double up = std::nextafter(rounded, 1.0e9), down = std::nextafter(rounded, -1.0e9);
+  for (const double degrees : {rounded, up, down}) {
+    if (Angle::degrees(degrees) == angle) return degrees;
+  }
+  return rounded;
+}
+
 }  // namespace
 
 Result<Camera> parse_camera(std::string_view text) {
@@ -69,6 +81,19 @@ Result<Camera> parse_camera(std::string_view text) {
                 .heading = Angle::degrees(values[3]),
                 .pitch = Angle::degrees(values[4]),
                 .fov_y = Angle::degrees(values[5])};
+}
+
+std::string camera_text(const Camera& camera) {
+  return fmt::format("{},{},{},{},{},{}", degrees_of(camera.eye.lat), degrees_of(camera.eye.lon), camera.eye.height_m,
+                     degrees_of(camera.heading), degrees_of(camera.pitch), degrees_of(camera.fov_y));
+}
+
+Camera nameable(const Camera& camera) {
+  const auto named = [](Angle angle) { return Angle::degrees(angle.deg()); };
+  return {.eye = {.lat = named(camera.eye.lat), .lon = named(camera.eye.lon), .height_m = camera.eye.height_m},
+          .heading = named(camera.heading),
+          .pitch = named(camera.pitch),
+          .fov_y = named(camera.fov_y)};
 }
 
 View make_view(const Camera& camera, const Ellipsoid& ellipsoid, Viewport viewport) {

@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "base/result.h"
@@ -27,6 +28,12 @@ struct Camera {
 /// "30N,20E,1000km". Refuses values that are not finite, |LAT| > 90,
 /// |PITCH| > 90, FOV outside [0.01, 170], ALT outside ±1e12, LON and HEADING outside ±1e6. The error names the field.
 [[nodiscard]] Result<Camera> parse_camera(std::string_view text);
+/// Writes a camera as "LAT,LON,ALT,HEADING,PITCH,FOV". parse_camera() reads the same camera to the last bits, and a
+/// camera of nameable() exactly.
+[[nodiscard]] std::string camera_text(const Camera& camera);
+/// The camera whose angles are those of double numbers of degrees, at most a few units in the last place away (some
+/// nanometres on the ground). A picture of it is the picture of its text, bit for bit.
+[[nodiscard]] Camera nameable(const Camera& camera);
 
 /// Picture size in pixels, each ≥ 1; make_view() takes smaller ones for 1.
 struct Viewport {

@@ -291,5 +291,22 @@ TEST(ParseCamera, AnyTextIsAnswered) {
   }
 }
 
+TEST(ParseCamera, TheTextOfANameableCameraIsThatCamera) {
+  constexpr double kRounding_deg = 1.0e-12;  // some units in the last place of 360 degrees
+  Draw draw(54);
+  for (int k = 0; k < 20000; ++k) {
+    const Camera any = camera_at(draw.between(-90, 90), draw.between(-180, 180), draw.between(1, 1e8),
+                                 draw.between(-360, 360), draw.between(-90, 90));
+    // Angles as a flight leaves them: no degrees of any double give them exactly.
+    Camera flown = any;
+    flown.eye.lon = Angle::radians(std::nextafter(any.eye.lon.rad(), 9.0));
+    const Camera camera = nameable(flown);
+    const auto read = parse_camera(camera_text(camera));
+    ASSERT_TRUE(read) << camera_text(camera);
+    EXPECT_EQ(*read, camera) << camera_text(camera);
+    EXPECT_NEAR(camera.eye.lon.deg(), flown.eye.lon.deg(), kRounding_deg);
+  }
+}
+
 }  // namespace
 }  // namespace terrella

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/viewer/panels/layer_panel.h"
+#include "apps/open_scene/bounds_view.h"
 
 namespace terrella {
 namespace {

@@ -229,6 +229,9 @@ class Walk(WindowTest):
                 none),
             "save a picture of any size": (self.shown, lambda: key("i"), lambda: menu("save a picture of any size"), none,
                                            self.close),
+            "project: save, restore at the next start, new": (
+                self.shown, lambda: key("j"), lambda: menu("project: save, restore at the next start, new"), none,
+                self.close),
             "shortcuts": (self.shown, lambda: key("F1"), lambda: menu("shortcuts"), none,
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,

@@ -28,6 +28,8 @@ SHOWN = [
      ["Return", "ctrl+a", *typed("1.0"), "Return", "Escape"]),
     ("layer panel", ["l"], ["l"]),
     ("layer panel, closed by Esc", ["l"], ["Escape"]),
+    ("project panel, closed by Esc", ["j"], ["Escape"]),
+    ("drawing panel, closed by Esc", ["d"], ["Escape"]),
     ("graticule by the layer panel", ["l", "Down", "Up", "space"], ["space", "Escape"]),
     ("picture panel, closed by Esc", ["i"], ["Escape"]),
     ("width written into the picture panel", ["i", "ctrl+a", *typed("77"), "Tab"],

@@ -28,17 +28,13 @@ Result<CrsBounds> parse_bounds(const std::string& text) {
   return CrsBounds{sides[0], sides[1], sides[2], sides[3]};
 }
 
-std::string text_of(const CrsBounds& b) {
-  return fmt::format("{:.15g},{:.15g},{:.15g},{:.15g}", b.west, b.south, b.east, b.north);
-}
-
 Status check_words(const PlaceWords& words) {
   if (!words.bounds) return Done{};
   const CrsBounds& b = *words.bounds;
   if (!words.crs.empty()) {
     if (b.west < b.east && b.south < b.north) return Done{};
-    return Error{
-        fmt::format("{}: with --crs it takes WEST < EAST and SOUTH < NORTH, in the units of that system", text_of(b))};
+    return Error{fmt::format("{}: with --crs it takes WEST < EAST and SOUTH < NORTH, in the units of that system",
+                             bounds_text(b))};
   }
   const bool longitudes = std::abs(b.west) <= kMostLongitude_deg && std::abs(b.east) <= kMostLongitude_deg &&
                           b.west != b.east && b.east - b.west <= 360.0 && b.west - b.east < 360.0;
@@ -46,10 +42,14 @@ Status check_words(const PlaceWords& words) {
   return Error{
       fmt::format("{}: it takes WEST and EAST in -360...360, at most 360 apart (WEST > EAST crosses 180 "
                   "degrees), and SOUTH < NORTH in -90...90",
-                  text_of(b))};
+                  bounds_text(b))};
 }
 
 }  // namespace
+
+std::string bounds_text(const CrsBounds& bounds) {
+  return fmt::format("{},{},{},{}", bounds.west, bounds.south, bounds.east, bounds.north);
+}
 
 void add_place_options(CLI::App& command, PlaceWords& words) {
   command
@@ -68,9 +68,11 @@ void add_place_options(CLI::App& command, PlaceWords& words) {
       ->check(number_in(-kMostLongitude_deg, kMostLongitude_deg))
       ->excludes(bounds)
       ->type_name("DEGREES");
-  command.parse_complete_callback([&words] {
-    if (Status sane = check_words(words); !sane) throw CLI::ValidationError("--bounds", sane.error().message);
-  });
+  command.parse_complete_callback([&words] { check_place(words); });
+}
+
+void check_place(const PlaceWords& words) {
+  if (const Status sane = check_words(words); !sane) throw CLI::ValidationError("--bounds", sane.error().message);
 }
 
 }  // namespace terrella

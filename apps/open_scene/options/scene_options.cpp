@@ -2,14 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <utility>
+
 #include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/option_words.h"
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/options/surface_options.h"
+#include "apps/open_scene/project/read_project.h"
 #include "globe/experiments.h"
 #include "sky/almanac.h"
 
 namespace terrella {
+
+void add_row_options(CLI::App& command, SourceOptions& source) {
+  add_choice<Projection>(
+      command, "--projection", source.projection, projection_words(),
+      "Set the imagery's projection; its rows are linear in latitude, in the sine of latitude, or as in web maps");
+  add_choice<LatitudeKind>(command, "--latitude", source.latitude, latitude_words(),
+                           "Set the latitude that the imagery's rows count: planetographic or planetocentric");
+}
+
 namespace {
 
 void add_camera_options(CLI::App& command, SceneOptions& options) {
@@ -38,24 +52,12 @@ void add_planet_options(CLI::App& command, SceneOptions& options) {
           "Set the planet's figure by semi-major axis in metres and flattening, or by name: " + body_names() +
               ". Default: what TILESET states, or the Earth")
       ->type_name("NAME|A,F");
-  add_choice<Projection>(
-      command, "--projection", options.base.projection,
-      {{"equirectangular", Projection::equirectangular},
-       {"equal-area", Projection::equal_area},
-       {"web-mercator", Projection::web_mercator}},
-      "Set the imagery's projection; its rows are linear in latitude, in the sine of latitude, or as in web maps");
-  add_choice<LatitudeKind>(command, "--latitude", options.base.latitude,
-                           {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}},
-                           "Set the latitude that the imagery's rows count: planetographic or planetocentric");
+  add_row_options(command, options.base);
 }
 
 void add_drawing_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--unlit", options.unlit, "Draw the imagery alone: no light, no sky, no text, black background");
-  add_choice<Texturing>(command, "--texturing", options.texturing,
-                        {{"vertex", Texturing::vertex},
-                         {"paper", Texturing::paper},
-                         {"exact", Texturing::exact},
-                         {"auto", Texturing::automatic}},
+  add_choice<Texturing>(command, "--texturing", options.texturing, texturing_words(),
                         "Choose the texturing of the pole bands")
       ->default_str("auto");
   command.add_option("--paper-a", options.paper_a, "Set the exponent a of --texturing paper")
@@ -77,16 +79,11 @@ void add_drawing_options(CLI::App& command, SceneOptions& options) {
                   "Set the texels per pixel: 1.4 shows a quarter less error for two thirds more tiles, 0.7 the reverse")
       ->check(number_in(0.125, 8.0))
       ->capture_default_str();
-  add_choice<Sharpness>(
-      command, "--magnify", options.surface.sharpness,
-      {{"bilinear", Sharpness::bilinear}, {"bicubic", Sharpness::bicubic}, {"auto", Sharpness::automatic}},
-      "Choose the filter of imagery whose texels are larger than pixels; auto is bicubic, and "
-      "bilinear with --unlit")
+  add_choice<Sharpness>(command, "--magnify", options.surface.sharpness, sharpness_words(),
+                        "Choose the filter of imagery whose texels are larger than pixels; auto is bicubic, and "
+                        "bilinear with --unlit")
       ->default_str("auto");
-  add_choice<DepthMode>(
-      command, "--depth", options.depth,
-      {{"reversed", DepthMode::reversed}, {"log", DepthMode::logarithmic}, {"standard", DepthMode::standard}},
-      "Choose the depth buffer's encoding")
+  add_choice<DepthMode>(command, "--depth", options.depth, depth_words(), "Choose the depth buffer's encoding")
       ->default_str("reversed");
 }
 
@@ -113,6 +110,9 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
           "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
           "viewer's shoulder)")
       ->type_name("UTC");
+  add_choice<bool>(command, "--night-lights", options.night_lights, {{"on", true}, {"off", false}},
+                   "Draw the lights of the Earth's cities on the night side at --time")
+      ->default_str("on");
   CLI::Option* objects =
       command
           .add_option(
@@ -132,6 +132,9 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
 void add_map_options(CLI::App& command, SceneOptions& options) {
   add_choice<bool>(command, "--map", options.map, {{"on", true}, {"off", false}},
                    "Draw coastlines, borders, and names of countries and places of the Earth over the picture");
+  command.add_flag_function(
+      "--graticule", [&options](std::int64_t count) { options.graticule = count > 0; },
+      "Draw lines of latitude and longitude with labels");
   command
       .add_option("--places", options.places,
                   "Take the names of places from this GeoJSON file of points with a name, on any body, instead of the "
@@ -141,11 +144,7 @@ void add_map_options(CLI::App& command, SceneOptions& options) {
 }
 
 void add_stereo_options(CLI::App& command, SceneOptions& options) {
-  add_choice<Stereo>(command, "--stereo", options.stereo.mode,
-                     {{"off", Stereo::off},
-                      {"side-by-side", Stereo::side_by_side},
-                      {"interlaced", Stereo::interlaced},
-                      {"anaglyph", Stereo::anaglyph}},
+  add_choice<Stereo>(command, "--stereo", options.stereo.mode, stereo_words(),
                      "Render for two eyes; the left eye's picture is on the left, in the even rows, or in red")
       ->default_str("off");
   command
@@ -183,7 +182,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "tileset", options.base.address,
-          "A GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) that states its "
+          "A project (.terrella), a GeoPackage, PMTiles, MBTiles, a folder of tiles, a picture (JPEG, PNG, WebP, TIFF) "
+          "that states its "
           "place or shows the whole planet, a URL template with {z}, {x} and {y}, the address of a WMTS, a WMS or a "
           "TIFF, or "
           "a source description (JSON or <GDAL_WMS>) (default: the included Earth)")
@@ -202,6 +202,20 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_stereo_options(command, options);
   add_cache_options(command, options);
   add_remote_set_options(command, options.base.remote);
+  command.parse_complete_callback([&command, &options] {
+    check_place(options.base.place);
+    if (!is_project(options.base.address.with_secrets())) return;
+    const Status read = read_project(command, options);
+    if (!read) options.project_fault = read.error();
+  });
+}
+
+void set_images(SceneOptions& options, std::vector<LayerOption> images) {
+  const LayerOption lowest = images.empty() ? LayerOption{.source = {}, .look = {.shown = false}} : images.front();
+  options.base = with_words(options.base, lowest.source);
+  options.base_look = lowest.look;
+  if (!images.empty()) images.erase(images.begin());
+  options.layers = std::move(images);
 }
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {

@@ -51,4 +51,15 @@ struct SourceOptions {
   return other;
 }
 
+/// `how` a source is opened, with what is said about another source. thread: any
+[[nodiscard]] inline SourceOptions with_words(SourceOptions how, const SourceOptions& said) {
+  how.address = said.address;
+  how.projection = said.projection;
+  how.latitude = said.latitude;
+  how.place = said.place;
+  how.numbers = said.numbers;
+  how.remote = said.remote;
+  return how;
+}
+
 }  // namespace terrella

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/option_words.h"
 #include "base/number.h"
 #include "streaming/objects/object_style.h"
 #include "streaming/sets/elevation_json.h"
@@ -65,8 +66,7 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
       .add_option("--surface-alpha", options.surface.alpha, "Set the surface's opacity: 0 is invisible, 1 is opaque")
       ->check(number_in(0.0, 1.0))
       ->capture_default_str();
-  add_choice<Blend>(command, "--blend", options.surface.blend,
-                    {{"normal", Blend::normal}, {"additive", Blend::additive}},
+  add_choice<Blend>(command, "--blend", options.surface.blend, blend_words(),
                     "Choose how a translucent surface blends with what lies behind")
       ->default_str("normal");
   command
@@ -90,16 +90,12 @@ void add_translucency_options(CLI::App& command, SceneOptions& options) {
           "(default: black; in view dark blue)")
       ->type_name("#RRGGBB");
   add_choice<SurfaceFromBelow>(
-      command, "--surface-from-below", options.surface.from_below,
-      {{"opaque", SurfaceFromBelow::opaque},
-       {"translucent", SurfaceFromBelow::translucent},
-       {"selective", SurfaceFromBelow::selective}},
+      command, "--surface-from-below", options.surface.from_below, from_below_words(),
       "Choose how the surface looks from below; selective lets only objects with through_surface "
       "show through")
       ->default_str("opaque");
   add_choice<HorizonCulling>(
-      command, "--horizon-culling", options.surface.horizon_culling,
-      {{"on", HorizonCulling::on}, {"off", HorizonCulling::off}, {"auto", HorizonCulling::automatic}},
+      command, "--horizon-culling", options.surface.horizon_culling, culling_words(),
       "Skip what the planet hides; 'on' also skips the far half when the eye is under the ground")
       ->default_str("auto");
 }
@@ -117,10 +113,7 @@ void add_overlay_options(CLI::App& command, SceneOptions& options) {
           "layer below. Repeatable")
       ->type_name("TILESET[:OPACITY]")
       ->allow_extra_args(false);
-  add_choice<Projection>(command, "--overlay-projection", options.overlay_projection,
-                         {{"equirectangular", Projection::equirectangular},
-                          {"equal-area", Projection::equal_area},
-                          {"web-mercator", Projection::web_mercator}},
+  add_choice<Projection>(command, "--overlay-projection", options.overlay_projection, projection_words(),
                          "Set the projection of overlays that do not state it, such as URL templates");
 }
 

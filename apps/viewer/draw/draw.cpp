@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/viewer/draw/drawing_file.h"
 #include "apps/viewer/draw/drawing_scene.h"
 
 namespace terrella {
@@ -15,12 +16,26 @@ constexpr double kReach_px = 9.0;  // at 96 dots per inch, from the pointer to a
 Draw::Draw(const ViewerContext& context)
     : Panel(context, "Draw"), kept_(drawings_file(context.globe.options().body.name)) {}
 
-void Draw::restore() {
+void Draw::restore(const SceneOptions& scene) {
   auto [drawing, complaint] = kept_.load();
   history_ = UndoHistory(std::move(drawing));
   show();
   if (!complaint.empty()) say(complaint);
+  if (scene.drawings.empty()) return;
+  const auto of_project = parse_drawing(scene.drawings, scene.project + ": \"drawings\"");
+  if (!of_project) return say(of_project.error().message);
+  Drawing both = history_.now();
+  for (const DrawnMark& mark : of_project->drawing.marks) {
+    const auto same = [mark](DrawnMark kept) {
+      kept.id = mark.id;
+      return kept == mark;
+    };
+    if (std::ranges::none_of(history_.now().marks, same)) both.add(mark);
+  }
+  commit(std::move(both));
 }
+
+std::string Draw::text() const { return drawing().marks.empty() ? std::string() : drawing_geojson(drawing()); }
 
 void Draw::begin(MarkKind kind) {
   commit();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/open_scene/options/scene_options.h"
 #include "apps/viewer/draw/draw_handles.h"
 #include "apps/viewer/draw/draw_panel.h"
 #include "apps/viewer/draw/drawing.h"
@@ -22,8 +23,10 @@ class Draw : public Panel {
  public:
   explicit Draw(const ViewerContext& context);
 
-  /// Shows the marks that were kept. Call this once.
-  void restore();
+  /// Shows the marks that were kept, and those of the scene's project that are not among them. Call this once.
+  void restore(const SceneOptions& scene);
+  /// The marks as GeoJSON; empty without marks.
+  [[nodiscard]] std::string text() const;
   /// True while a mark is being drawn: clicks and Enter add places.
   [[nodiscard]] bool is_sketching() const { return sketch_.has_value(); }
   /// True for the layer of the marks.

@@ -139,12 +139,22 @@ Status save_drawing(const std::filesystem::path& file, const Drawing& drawing) {
   return write_file(file, std::as_bytes(std::span(text)));
 }
 
-Result<OpenedDrawing> open_drawing(const std::filesystem::path& file) {
-  Result<ObjectFile> read = read_objects(file);
+namespace {
+
+Result<OpenedDrawing> marks_of(Result<ObjectFile> read) {
   if (!read) return read.error();
   SceneDrawing taken = drawing_of(read->scene);
   return OpenedDrawing{
       .drawing = std::move(taken.drawing), .left_out = taken.left_out, .complaints = std::move(read->complaints)};
+}
+
+}  // namespace
+
+Result<OpenedDrawing> open_drawing(const std::filesystem::path& file) { return marks_of(read_objects(file)); }
+
+Result<OpenedDrawing> parse_drawing(const std::string& geojson, const std::string& where) {
+  std::istringstream stream(geojson);
+  return marks_of(parse_geojson_objects(stream, where));
 }
 
 }  // namespace terrella

@@ -30,5 +30,7 @@ struct OpenedDrawing {
 
 /// Reads the marks of GeoJSON, KML or another vector file. The error names the file. Blocks. thread: any
 [[nodiscard]] Result<OpenedDrawing> open_drawing(const std::filesystem::path& file);
+/// The same for the text of a GeoJSON file. The error begins with `where`.
+[[nodiscard]] Result<OpenedDrawing> parse_drawing(const std::string& geojson, const std::string& where);
 
 }  // namespace terrella

@@ -8,6 +8,7 @@
 
 #include "apps/commands/raster_facts.h"
 #include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/scene_numbers.h"
 #include "apps/viewer/styles/layer_style.h"
 #include "geo/coordinates.h"
@@ -23,13 +24,15 @@ struct LayerRow {
   LayerId id = LayerId::none;  ///< none for heights
   LayerKind kind = LayerKind::imagery;
   std::string name = {};
-  std::optional<GeoRect> bounds = {};                       ///< set if known and smaller than the planet
-  int finest_level = 0;                                     ///< imagery only
-  std::optional<NumberFacts> numbers = {};                  ///< set for imagery of numbers
-  std::string attribution = {};                             ///< may be empty
-  std::string problem = {};                                 ///< last failure of a tile, while tiles are missing
-  ImageLook look = {};                                      ///< objects use `shown` and opacity, heights use `shown`
-  FactsReader read_facts = {};                              ///< reads the facts of a raster; empty for other layers
+  SourceOptions source = {};                ///< source of imagery and heights; no address: the included Earth
+  ObjectsOption objects = {};               ///< file and style of objects
+  std::optional<GeoRect> bounds = {};       ///< set if known and smaller than the planet
+  int finest_level = 0;                     ///< imagery only
+  std::optional<NumberFacts> numbers = {};  ///< set for imagery of numbers
+  std::string attribution = {};             ///< may be empty
+  std::string problem = {};                 ///< last failure of a tile, while tiles are missing
+  ImageLook look = {};                      ///< objects use `shown` and opacity, heights use `shown`
+  FactsReader read_facts = {};              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
   bool fills_checked = false;                               ///< objects: areas without a fill are reported
   std::shared_ptr<LayerStyle> style = {};                   ///< set for objects with features
@@ -59,9 +62,5 @@ struct LayerSwitch {
 /// keyboard. Stores the user's changes to looks and switches. thread: main
 [[nodiscard]] LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows,
                                     const std::vector<LayerSwitch>& switches, float foot, bool just_opened);
-
-/// Bounds of all objects, across ±180° if shorter. Returns nullopt for an empty scene, or if the bounds span most of
-/// the planet. thread: any
-[[nodiscard]] std::optional<GeoRect> bounds_of(const ObjectScene& scene);
 
 }  // namespace terrella

@@ -79,9 +79,4 @@ double pixel_step_deg(const View& view, const Ground& ground) {
   return Angle::radians(distance_m / view.pixels_per_radian() / ground.ellipsoid().a_m()).deg();
 }
 
-std::string camera_text(const Camera& camera) {
-  return fmt::format("{},{},{},{},{},{}", camera.eye.lat.deg(), camera.eye.lon.deg(), camera.eye.height_m,
-                     camera.heading.deg(), camera.pitch.deg(), camera.fov_y.deg());
-}
-
 }  // namespace terrella

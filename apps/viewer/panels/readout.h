@@ -33,7 +33,4 @@ struct ScaleBar {
 /// Degrees of arc covered by a pixel at the picture's centre, at least those of a pixel straight below the eye.
 [[nodiscard]] double pixel_step_deg(const View& view, const Ground& ground);
 
-/// Formats a camera as "LAT,LON,ALT,HEADING,PITCH,FOV" for --camera. Parsing returns the same camera to the last bits.
-[[nodiscard]] std::string camera_text(const Camera& camera);
-
 }  // namespace terrella

@@ -24,6 +24,7 @@ class GraticuleLines : public Part {
   explicit GraticuleLines(const ViewerContext& context) : Part(context) {}
 
   [[nodiscard]] bool& is_on() { return on_; }
+  [[nodiscard]] bool is_on() const { return on_; }
   /// Draws the lines under the panels, if on, and returns the boxes of their labels. Call this after the frame's
   /// panels. Labels keep off the boxes of `taken`, and `foot` free at the lower edge, in units of the window.
   [[nodiscard]] std::vector<UiBox> draw_over(const View& view, double foot, const std::vector<UiBox>& taken) const;

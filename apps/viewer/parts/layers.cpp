@@ -22,6 +22,16 @@ namespace {
 constexpr double kLegendGap = 0.8;    // in text heights, to the window's edge and the status line
 constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 
+/// The source of a layer, with the colours that it has now.
+SourceOptions described(const LayerRow& row) {
+  SourceOptions source = row.source;
+  if (!row.numbers || !row.look.numbers) return source;
+  source.numbers.colormap = row.numbers->colormap;
+  source.numbers.stretch = {
+      {.kind = StretchRule::Kind::range, .low = row.look.numbers->low, .high = row.look.numbers->high}};
+  return source;
+}
+
 }  // namespace
 
 Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
@@ -95,6 +105,27 @@ std::optional<std::string> Layers::shown_objects(LayerId layer) const {
     return one.kind == LayerKind::objects && one.id == layer && one.look.shown;
   });
   return row == rows_.end() ? std::nullopt : std::optional(row->name);
+}
+
+void Layers::describe(SceneOptions& scene) const {
+  std::vector<LayerOption> images;
+  scene.elevation = {};
+  scene.object_layers.clear();
+  for (const LayerRow& row : rows_) {
+    if (row.kind == LayerKind::heights) {
+      scene.elevation = row.source.address;
+      scene.elevation_shown = row.look.shown;
+    } else if (row.kind == LayerKind::imagery) {
+      images.push_back({.source = described(row), .look = row.look});
+    } else {
+      ObjectsOption objects = row.objects;
+      objects.shown = row.look.shown;
+      objects.opacity = row.look.opacity;
+      objects.style_over = row.style && !row.style->is_own() ? row.style->text() : std::string();
+      scene.object_layers.push_back(std::move(objects));
+    }
+  }
+  set_images(scene, std::move(images));
 }
 
 std::string Layers::value_at(const Geodetic& place) {
@@ -224,6 +255,8 @@ bool Layers::cancel() {
 
 void Layers::add(OpenedFile file) {
   LayerRow row{.name = shown_name(file.path)};
+  row.source.address = file.path.string();
+  row.objects = {.file = file.path.string(), .model_place = file.model_place};
   row.read_facts = std::move(file.read_facts);
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};

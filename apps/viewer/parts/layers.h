@@ -39,6 +39,8 @@ class Layers : public Panel {
   /// Draws the legend of the shown layers above the `foot` units at the lower edge. A high window shows the
   /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
   void draw_legend(float foot, bool before_panels) const;
+  /// Writes the layers into a scene, as those of a project.
+  void describe(SceneOptions& scene) const;
   /// Name of a layer of objects; nullopt if the layer is hidden or has no row.
   [[nodiscard]] std::optional<std::string> shown_objects(LayerId layer) const;
   /// The value that the highest shown layer of numbers stores at a place; empty while it is not known.

@@ -24,6 +24,7 @@ class MapLayer : public Part {
   /// False if there is no map of the globe's body.
   [[nodiscard]] bool exists() const { return exists_; }
   [[nodiscard]] bool& is_on() { return on_; }
+  [[nodiscard]] bool is_on() const { return on_; }
   void toggle();
   /// Begins to read the map, or takes it. Call this once per frame, before drawing. `last_frame_ms`: time of the last
   /// frame.

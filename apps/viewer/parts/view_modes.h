@@ -22,6 +22,7 @@ class ViewModes : public Panel {
   void next_opacity();
   void next_stereo();
   void toggle_sky();
+  [[nodiscard]] bool has_sky() const { return sky_; }
   void toggle_underground() { underground_.toggle(); }
   void toggle_play() { play_.play(!play_.is_playing()); }
   [[nodiscard]] TimePlay& play() { return play_; }

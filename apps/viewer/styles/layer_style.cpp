@@ -19,8 +19,10 @@ void leave_out_rest(ClassStyle& classes, const FieldValues& field) {
 
 }  // namespace
 
-LayerStyle::LayerStyle(std::shared_ptr<const LayerFeatures> features)
-    : features_(std::move(features)), style_(features_->style), classes_(classes_of(style_)) {}
+LayerStyle::LayerStyle(std::shared_ptr<const LayerFeatures> features, FeatureStyle drawn)
+    : features_(std::move(features)), style_(std::move(drawn)), classes_(classes_of(style_)) {
+  if (classes_ && !is_own()) choice_.field = classes_->field;
+}
 
 void LayerStyle::read_fields(const std::function<void()>& wake_up) {
   if (fields_.valid()) return;
@@ -58,9 +60,9 @@ Status LayerStyle::apply(Globe& globe, LayerId layer, const StyleChoice& choice)
   return Done{};
 }
 
-std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features) {
+std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features, FeatureStyle drawn) {
   if (features.parts.empty()) return nullptr;
-  return std::make_shared<LayerStyle>(std::make_shared<const LayerFeatures>(std::move(features)));
+  return std::make_shared<LayerStyle>(std::make_shared<const LayerFeatures>(std::move(features)), std::move(drawn));
 }
 
 Result<std::filesystem::path> save_style(const LayerStyle& style) {

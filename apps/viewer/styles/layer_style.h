@@ -19,8 +19,8 @@ namespace terrella {
 /// The style of one layer of objects in the window. thread: main for every call
 class LayerStyle {
  public:
-  /// `features` of the layer, as layer_features() returns them; at least one.
-  explicit LayerStyle(std::shared_ptr<const LayerFeatures> features);
+  /// `features` of the layer, as layer_features() returns them; at least one. `drawn`, the style that they have now.
+  LayerStyle(std::shared_ptr<const LayerFeatures> features, FeatureStyle drawn);
 
   /// Reads the fields on a worker, once; `wake_up` is called there at the end.
   void read_fields(const std::function<void()>& wake_up);
@@ -45,6 +45,8 @@ class LayerStyle {
 
   /// The drawn classes; nullopt for a style without classes.
   [[nodiscard]] const std::optional<ClassStyle>& classes() const { return classes_; }
+  /// True if the layer is drawn in the style that it was read in.
+  [[nodiscard]] bool is_own() const { return text() == style_text(features_->style); }
   /// The drawn style, as --object-style reads it.
   [[nodiscard]] std::string text() const { return style_text(style_); }
 
@@ -59,8 +61,8 @@ class LayerStyle {
   bool save_wish_ = false;
 };
 
-/// Returns the style of a layer; null if the layer has no features that can be edited.
-[[nodiscard]] std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features);
+/// Returns the style of a layer that is drawn in `drawn`; null if the layer has no features that can be edited.
+[[nodiscard]] std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features, FeatureStyle drawn = {});
 
 /// Saves the drawn style in a new file of the working folder, and returns the file. The error names the file.
 [[nodiscard]] Result<std::filesystem::path> save_style(const LayerStyle& style);

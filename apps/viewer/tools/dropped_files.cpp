@@ -8,9 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/open_scene/scene_objects.h"
 #include "apps/process/console.h"
 #include "streaming/file_bytes.h"
-#include "streaming/objects/gltf_model.h"
 #include "streaming/objects/vector_objects.h"
 #include "streaming/url.h"
 
@@ -39,17 +39,10 @@ bool is_geojson(const std::filesystem::path& path) {
   return std::ranges::any_of(kTypes, [head](std::string_view type) { return head.find(type) != head.npos; });
 }
 
-Result<ObjectFile> open_model(const std::filesystem::path& path, const Geodetic& place) {
-  Result<ModelFile> model = read_gltf_model(path);
-  if (!model) return model.error();
-  ObjectFile file{.scene = {}, .complaints = std::move(model->complaints), .complaints_left_out = 0};
-  file.scene.meshes.push_back({.model = std::move(model->model), .place = place});
-  return file;
-}
-
-Result<OpenedFile> open_objects(const std::filesystem::path& path, Result<ObjectFile> file) {
+Result<OpenedFile> open_objects(const std::filesystem::path& path, std::optional<Geodetic> model_place = {}) {
+  auto file = read_object_layer({.file = path.string(), .model_place = model_place});
   if (!file) return file.error();
-  return OpenedFile{path, *std::move(file)};
+  return OpenedFile{path, *std::move(file), model_place};
 }
 
 /// True for a folder or file that may hold tiles or features, which only its content tells.
@@ -84,9 +77,8 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceO
     return Error{Url(path.string()).redacted() +
                  ": objects and models are read from files only; download this one, and open the file"};
   }
-  if (is_geojson(path)) return open_objects(path, read_geojson_objects(path));
-  if (of_objects && is_vector_file(path)) return open_objects(path, read_vector_objects(path));
-  if (extension == ".glb" || extension == ".gltf") return open_objects(path, open_model(path, place));
+  if (extension == ".glb" || extension == ".gltf") return open_objects(path, place);
+  if (is_geojson(path) || (of_objects && is_vector_file(path))) return open_objects(path);
   SourceOptions tiles_options = options_beside(options, path.string());
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   tiles_options.cuts = &cuts;
@@ -94,7 +86,7 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceO
   tiles_options.opened = &rasters;
   auto tiles = open_any_tiles(tiles_options, progress);
   if (!tiles && is_file && is_of_either(path)) {
-    auto features = open_objects(path, read_vector_objects(path));
+    auto features = open_objects(path);
     if (features) return features;
   }
   if (!tiles) return tiles.error();
@@ -102,11 +94,11 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceO
   if (!is_of_heights((*tiles)->info())) {
     auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
     if (!layer) return layer.error();
-    return OpenedFile{path, *std::move(layer), std::move(cuts), std::move(read_facts)};
+    return OpenedFile{path, *std::move(layer), {}, std::move(cuts), std::move(read_facts)};
   }
   auto heights = ElevationSource::open(*std::move(tiles), path.string());
   if (!heights) return heights.error();
-  return OpenedFile{path, *std::move(heights), {}, std::move(read_facts)};
+  return OpenedFile{path, *std::move(heights), {}, {}, std::move(read_facts)};
 }
 
 DroppedFiles::~DroppedFiles() {

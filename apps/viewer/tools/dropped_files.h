@@ -22,6 +22,7 @@ namespace terrella {
 struct OpenedFile {
   std::filesystem::path path;
   std::variant<ImageryLayer, ElevationSource, ObjectFile> what;
+  std::optional<Geodetic> model_place = {};            ///< set for a model: where it stands
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< cuts of a picture that run in the background
   FactsReader read_facts = {};                         ///< reads the facts of a raster
 };

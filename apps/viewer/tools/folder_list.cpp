@@ -22,7 +22,7 @@ std::string lowered(std::string text) {
 bool has_shown_name(const std::filesystem::path& path) {
   constexpr std::array kEndings = {".jpg",     ".jpeg", ".png",     ".tif",  ".tiff", ".webp", ".gpkg", ".mbtiles",
                                    ".pmtiles", ".json", ".geojson", ".gltf", ".glb",  ".xml",  ".wms",  ".lst",
-                                   ".txt",     ".kml",  ".kmz",     ".gpx",  ".shp",  ".fgb",  ".csv"};
+                                   ".txt",     ".kml",  ".kmz",     ".gpx",  ".shp",  ".fgb",  ".csv",  ".terrella"};
   return std::ranges::find(kEndings, lowered(path.extension().string())) != kEndings.end();
 }
 

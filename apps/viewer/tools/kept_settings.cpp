@@ -28,6 +28,7 @@ void for_each_setting(Visit visit) {
   visit("layers", &KeptSettings::layers);
   visit("graticule", &KeptSettings::graticule);
   visit("map", &KeptSettings::map);
+  visit("restore", &KeptSettings::restore);
 }
 
 bool read_field(const Json& field, bool& value) {

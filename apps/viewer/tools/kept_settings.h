@@ -15,6 +15,7 @@ struct KeptSettings {
   bool layers = false;
   bool graticule = false;
   bool map = true;
+  bool restore = true;  ///< start with the scene that was last open
   bool operator==(const KeptSettings&) const = default;
 };
 

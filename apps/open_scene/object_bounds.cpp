@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/viewer/panels/layer_panel.h"
+#include "apps/open_scene/bounds_view.h"
 
 namespace terrella {
 namespace {

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/open_scene/options/scene_options.h"
+#include "apps/viewer/parts/part.h"
+
+namespace terrella {
+
+/// Saves the window's scene as a project, opens projects, and keeps the scene for the next start. Owns the panel.
+/// thread: main for every call
+class Projects : public Panel {
+ public:
+  /// `describe` returns the scene as the window shows it. `project` is the file that is open; may be empty. `restore`:
+  /// the scene is kept for the next start.
+  Projects(const ViewerContext& context, std::function<SceneOptions()> describe, std::string project, bool restore);
+
+  /// Leaves this scene for that of a project. A project that cannot be read is reported, and the scene stays.
+  void open(const std::filesystem::path& project);
+  /// The project that replaces this scene; empty for the Earth as at the first start. Nullopt: none does.
+  [[nodiscard]] const std::optional<std::filesystem::path>& next() const { return next_; }
+  void stay() { next_.reset(); }  ///< no project replaces this scene
+  [[nodiscard]] bool restores() const { return restore_; }
+  /// Saves the scene for the next start, if the user wants it and the scene has changed.
+  void keep_session();
+
+  [[nodiscard]] bool changed() const override { return next_.has_value(); }
+  void take_keyboard() override;
+
+ private:
+  void draw_open(float foot) override;
+  void toggled() override;
+  void draw_fields();
+  void save();
+
+  std::function<SceneOptions()> describe_;
+  std::string project_;
+  std::array<char, 1024> text_{};  ///< text in the line for the file
+  std::string replaces_;           ///< an existing file that the next click on Save replaces
+  std::optional<std::filesystem::path> next_;
+  std::string kept_;  ///< text of the session file, as far as this window wrote it
+  bool restore_;
+};
+
+/// session.terrella in $XDG_STATE_HOME/terrella or ~/.local/state/terrella; nullopt without such a folder. thread: any
+[[nodiscard]] std::optional<std::filesystem::path> session_file();
+
+}  // namespace terrella

@@ -1,0 +1,59 @@
+#include <utility>
+
+#include "apps/open_scene/project/project_paths.h"
+#include "apps/viewer/viewer.h"
+
+namespace terrella {
+
+KeptSettings Viewer::now_kept() {
+  const Viewport size = window_.windowed();
+  return {.width_px = size.width_px,
+          .height_px = size.height_px,
+          .panel = modes_.is_open(),
+          .layers = layers_.is_open(),
+          .graticule = graticule_.is_on(),
+          .map = map_.is_on(),
+          .restore = projects_.restores()};
+}
+
+SceneOptions Viewer::scene() const {
+  const GlobeOptions& globe = globe_.options();
+  SceneOptions now = options_.scene;
+  now.base.body = globe.body;
+  now.camera = nameable(navigator_.camera());
+  now.size = window_.framebuffer();
+  now.exaggeration = globe.exaggeration;
+  now.surface = globe.surface;
+  now.stereo = globe.stereo;
+  now.sky = modes_.has_sky();
+  now.time = globe.time;
+  now.night_lights = !globe.time || globe_.has_night_lights();
+  now.graticule = graticule_.is_on();
+  if (map_.exists()) now.map = map_.is_on();
+  layers_.describe(now);
+  now.drawings = draw_.text();
+  return now;
+}
+
+// A project replaces the scene; any other file becomes a layer.
+void Viewer::open_file(std::filesystem::path file) {
+  is_project(file.string()) ? projects_.open(file) : layers_.open(std::move(file));
+}
+
+std::vector<LayerSwitch> Viewer::switches() {
+  std::vector<LayerSwitch> switches{{"Graticule", "G: lines of latitude and longitude.", graticule_.is_on()}};
+  if (map_.exists()) switches.push_back({"Map", "C: coastlines, borders and names.", map_.is_on()});
+  return switches;
+}
+
+// Saves the settings. A failure is reported once, because the settings then count as saved.
+void Viewer::keep_settings() {
+  const KeptSettings now = changed_since(options_.kept, started_, now_kept());
+  if (now == saved_) return;
+  saved_ = now;
+  const auto file = settings_file();
+  if (!file) return;
+  if (const Status saved = save_settings(*file, now); !saved) messages_.say(saved.error().message);
+}
+
+}  // namespace terrella
