@@ -61,6 +61,7 @@ struct ViewOptions {
   KeptSettings kept;
   bool first_run = false;
   std::string message;
+  bool restored = false;  ///< the scene is that of the last session
 };
 
 /// True if the command line says nothing about the scene.
@@ -90,6 +91,7 @@ void restore_session(ViewOptions& options) {
   scene.project.clear();
   options.scene = std::move(scene);
   options.message = "The last session is restored; J begins a new one";
+  options.restored = true;
 }
 
 // Applies the kept settings of earlier runs; options on the command line have priority.
@@ -274,6 +276,11 @@ int view(ViewOptions options) {
   auto window = Window::create("Terrella", options.scene.size);
   if (!window) return fail("view", window.error().message);
   auto explored = explore(**window, options);
+  if (!explored && options.restored && !StopSignals::came()) {  // the program starts in any case
+    options.message = "The last session cannot be restored: " + explored.error().message;
+    options.scene = new_scene(options.scene, (*window)->framebuffer());
+    explored = explore(**window, options);
+  }
   if (!explored) return fail("view", explored.error().message);
   while (explored->next) {
     const auto next = next_options(options, *explored, **window);

@@ -55,7 +55,7 @@ Status SceneOpener::leave_out(const Error& why) {
   return Done{};
 }
 
-// The lowest image of a project that can be opened is its base.
+// The lowest image of a project that can be opened is its base, at last the included Earth.
 Result<ImageryLayer> SceneOpener::open_lowest() {
   for (;;) {
     auto base = open_base(options_.base);
@@ -63,6 +63,8 @@ Result<ImageryLayer> SceneOpener::open_lowest() {
     if (const Status left = leave_out(base.error()); !left) return left.error();
     auto& layers = options_.layers;
     const bool has_next = !layers.empty();
+    const bool on_earth = !options_.base.body || options_.base.body->name == earth().name;
+    if (!has_next && !on_earth) return Error{options_.project + ": none of its images can be opened"};
     options_.base = with_words(options_.base, has_next ? layers.front().source : SourceOptions{});
     options_.base_look = has_next ? layers.front().look : ImageLook{};
     if (has_next) layers.erase(layers.begin());
@@ -137,7 +139,7 @@ Status SceneOpener::add_object_layers() {
   for (const ObjectsOption& option : layers) {
     auto added = add_objects(*scene_.globe, option, options_.keep_features);
     if (!added) {
-      if (const Status left = leave_out(added.error()); !left) return left;
+      if (Status left = leave_out(added.error()); !left) return left;
       continue;
     }
     scene_.all_objects = scene_.all_objects && added->faultless;

@@ -189,6 +189,7 @@ class Draw(WindowTest):
 
     def save_as(self, name):
         left, _, _, bottom = map(round, self.viewer.layout.panels["Draw"])
+        self.viewer.move(left + 60, bottom - 5)  # the pointer may rest on the field since an earlier viewer
         self.seen(self.viewer.click, left + 60, bottom - FILE_FIELD)
         self.key("ctrl+a")
         self.type(name)

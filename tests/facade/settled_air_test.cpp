@@ -1,6 +1,7 @@
 // The air of a settled picture depends on the view alone, not on the views before it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <tuple>
 
 #include "tests/gl/gl_fixture.h"
@@ -19,7 +20,7 @@ class SettledAir : public GlTest {
     GlobeOptions options;
     options.sky = true;
     options.time = time;
-    auto source = std::make_shared<LayerSource>(TileGrid{.tile_px = 64, .max_level = 3}, [](double, double) {
+    auto source = std::make_shared<LayerSource>(TileGrid{.tile_px = 64, .max_level = 5}, [](double, double) {
       return Rgba{40, 60, 90, 255};
     });
     auto globe = Globe::create(options, std::move(source));
@@ -52,6 +53,20 @@ TEST_F(SettledAir, IsThatOfANewGlobe) {
     fresh->set_camera(after);
     EXPECT_TRUE(at_rest(*moved).rgba == settled(*fresh).rgba) << height_m << " m";
   }
+}
+
+TEST_F(SettledAir, IsThatOfANewGlobeAtAnotherSize) {
+  constexpr Viewport kLarger{1280, 960};
+  const Camera camera = camera_at(20, -40, 9.0e6);
+  const auto grown = sky_globe({}), fresh = sky_globe({});
+  ASSERT_TRUE(grown && fresh);
+  grown->set_camera(camera);
+  fresh->set_camera(camera);
+  std::ignore = at_rest(*grown);
+  settle(*grown, kLarger);
+  const Picture after = picture();
+  settle(*fresh, kLarger);
+  EXPECT_TRUE(after.rgba == picture().rgba);
 }
 
 TEST_F(SettledAir, FollowsASmallStepOfTheSun) {

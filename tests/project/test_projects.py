@@ -163,7 +163,7 @@ class Projects(WindowTest):
             self.assertEqual(png.changed(png.read(self.saved_picture(viewer, f"window_{turn}")), picture), 0)
             self.assertEqual(viewer.quit(), 0)
             marks = json.loads((self.kept / "terrella" / "drawings.geojson").read_text(encoding="utf-8"))
-            self.assertEqual([one["properties"]["name"] for one in marks["features"]], ["Here"])
+            self.assertEqual([one["properties"]["title"] for one in marks["features"]], ["Here"])
 
     def test_a_missing_file_is_named_and_the_rest_opens(self):
         viewer = self.start(bare=False)
@@ -175,6 +175,16 @@ class Projects(WindowTest):
         self.screenshot(viewer, "missing")
         self.assertEqual(viewer.quit(), 0)
         self.assertIn("square.geojson", viewer.program.stderr.read())
+
+    def test_a_session_that_cannot_be_opened_gives_way_to_the_earth(self):
+        self.session.write_text(json.dumps({"terrella": 1, "settings": {"body": "mars"}, "layers": [
+            {"kind": "imagery", "source": "/gone.tif"}]}), encoding="ascii")
+        viewer = self.start(bare=False)
+        self.assertEqual(self.kept_layers(viewer, 1), [("imagery", "", 1)])
+        self.assertEqual(json.loads(self.session.read_text(encoding="utf-8"))["settings"]["body"], "earth")
+        self.screenshot(viewer, "given_way")
+        self.assertEqual(viewer.quit(), 0)
+        self.assertIn("/gone.tif", viewer.program.stderr.read())
 
     def test_a_damaged_session_is_kept_under_another_name(self):
         self.session.write_text('{"terrella": 1, "layers": [{"kind": "nothing"}]}', encoding="ascii")

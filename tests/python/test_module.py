@@ -264,6 +264,22 @@ class Globes(ModuleTest):
         globe.camera = "46,7,3000000,0,-60"
         self.assertTrue((globe.render() == alone).all())
 
+    def test_a_project_is_a_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "mark.geojson").write_text(json.dumps(mark(7, 46)), encoding="ascii")
+            project = pathlib.Path(folder) / "p.terrella"
+            project.write_text(json.dumps({
+                "terrella": 1, "settings": {"camera": "46,7,3000000", "size": "160x120"},
+                "layers": [{"kind": "imagery", "source": str(NATURAL_EARTH)},
+                           {"kind": "objects", "source": "mark.geojson"}]}), encoding="ascii")
+            drawn = terrella.render(project)
+            self.assertEqual(tuple(drawn[SIZE[1] // 2, SIZE[0] // 2]), MAGENTA)
+            self.assertTrue((terrella.Globe(project).render() == drawn).all())
+            options = {"camera": (46, 7, 3e6), "size": SIZE, "objects": pathlib.Path(folder) / "mark.geojson"}
+            self.assertTrue((terrella.render(NATURAL_EARTH, **options) == drawn).all())
+            elsewhere = terrella.render(project, camera=(0, 0, 1e7))
+            self.assertFalse((elsewhere == drawn).all(), "a keyword wins over the project")
+
     def test_layers(self):
         globe = terrella.Globe(NATURAL_EARTH, size=SIZE, unlit=True)
         base = globe.render()
