@@ -22,6 +22,7 @@
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
 #include "apps/viewer/projects/projects.h"
+#include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
@@ -81,10 +82,7 @@ void restore_session(ViewOptions& options) {
   SceneOptions scene = options.scene;
   const Status read = read_project(*file, scene);
   if (!read) {
-    std::filesystem::path copy = *file;
-    copy += ".damaged";
-    std::filesystem::rename(*file, copy, failed);
-    options.message = fmt::format("{}; it is kept as {}", read.error().message, copy.filename().string());
+    options.message = set_aside(*file, read.error().message);
     return;
   }
   scene.size = options.scene.size;
@@ -101,7 +99,7 @@ void begin_as_kept(ViewOptions& options, const CLI::App& command) {
   LoadedSettings loaded = load_settings(*file);
   options.first_run = loaded.first_run;
   options.message = std::move(loaded.complaint);
-  KeptSettings& kept = options.kept = loaded.settings;
+  const KeptSettings& kept = options.kept = loaded.settings;
   SceneOptions& scene = options.scene;
   if (command.count("--size") == 0 && scene.project.empty() && kept.width_px > 0 && kept.height_px > 0) {
     scene.size = {std::max(kept.width_px, kSmallestWindow.width_px),
@@ -125,6 +123,8 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Open
   const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
   const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
   LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .source = said, .numbers = layer.numbers};
+  row.source.cuts = nullptr;  // those of the opening end with it
+  row.source.opened = nullptr;
   if (const auto look = scene.globe->look(layer.id)) row.look = *look;
   if (const auto attribution = scene.globe->attribution(layer.id)) row.attribution = *attribution;
   row.read_facts = facts_reader(address, said.place, band, opened);
@@ -227,7 +227,6 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
   cuts.clear();
   SceneOptions explored = options.scene;
   explored.base.body = scene->body;
-  for (LayerRow& row : rows) row.source.cuts = nullptr, row.source.opened = nullptr;
   const ViewerOptions viewer_options{.camera = start,
                                      .print_camera = options.print_camera,
                                      .print_panels = options.print_panels,

@@ -61,13 +61,11 @@ Result<ImageryLayer> SceneOpener::open_lowest() {
     auto base = open_base(options_.base);
     if (base || options_.base.address.empty()) return base;
     if (const Status left = leave_out(base.error()); !left) return left.error();
-    auto& layers = options_.layers;
-    const bool has_next = !layers.empty();
+    const bool has_next = !options_.layers.empty();
     const bool on_earth = !options_.base.body || options_.base.body->name == earth().name;
     if (!has_next && !on_earth) return Error{options_.project + ": none of its images can be opened"};
-    options_.base = with_words(options_.base, has_next ? layers.front().source : SourceOptions{});
-    options_.base_look = has_next ? layers.front().look : ImageLook{};
-    if (has_next) layers.erase(layers.begin());
+    set_images(options_, std::exchange(options_.layers, {}));
+    if (!has_next) options_.base_look = {};
   }
 }
 

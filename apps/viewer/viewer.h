@@ -60,7 +60,7 @@ class Viewer {
   /// Runs until the user quits, or opens a project. Returns the project, or an empty path for the Earth as at the first
   /// start; nullopt: the user has quit.
   std::optional<std::filesystem::path> run();
-  /// The scene as the window shows it, as a project.
+  /// The scene as the window shows it, as a project without drawings.
   [[nodiscard]] SceneOptions scene() const;
 
   /// All actions of the user, in the order of the list of shortcuts. thread: any
@@ -129,7 +129,8 @@ class Viewer {
   FrameGraph frame_graph_{context_};
   Layers layers_;
   OpenDialog open_{context_, [this](std::filesystem::path file) { open_file(std::move(file)); }};
-  Projects projects_{context_, [this] { return scene(); }, options_.scene.project, options_.kept.restore};
+  Projects projects_{context_, [this] { return scene(); }, [this] { return draw_.text(); }, options_.scene.project,
+                     options_.kept.restore};
   ViewModes modes_;
   Draw draw_{context_};
   Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); }};

@@ -31,7 +31,7 @@ SceneOptions Viewer::scene() const {
   now.graticule = graticule_.is_on();
   if (map_.exists()) now.map = map_.is_on();
   layers_.describe(now);
-  now.drawings = draw_.text();
+  now.drawings.clear();
   return now;
 }
 

@@ -214,6 +214,10 @@ ObjectStyle simplestyle_defaults() {
 
 }  // namespace
 
+std::string color_text(const ObjectColor& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
+}
+
 std::optional<ObjectColor> read_color(std::string_view text) {
   if (text.starts_with('#')) text.remove_prefix(1);
   unsigned value = 0;

@@ -30,5 +30,7 @@ using Complain = std::function<void(const std::string& what)>;
 
 /// Parses "#rgb" or "#rrggbb"; the number sign is optional.
 [[nodiscard]] std::optional<ObjectColor> read_color(std::string_view text);
+/// Writes a colour as "#rrggbb", without its alpha.
+[[nodiscard]] std::string color_text(const ObjectColor& color);
 
 }  // namespace terrella

@@ -104,9 +104,10 @@ json between(const json& low, const json& high, double part) {
   if (!low.is_string() || !high.is_string()) return {};
   const auto a = read_color(low.get_ref<const std::string&>()), b = read_color(high.get_ref<const std::string&>());
   if (!a || !b) return {};
-  const auto channel = [&](std::uint8_t one, std::uint8_t other) { return std::lround(mix(one, other)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", channel(a->red, b->red), channel(a->green, b->green),
-                     channel(a->blue, b->blue));
+  const auto channel = [&](std::uint8_t one, std::uint8_t other) {
+    return static_cast<std::uint8_t>(std::lround(mix(one, other)));
+  };
+  return color_text({channel(a->red, b->red), channel(a->green, b->green), channel(a->blue, b->blue)});
 }
 
 /// Computes checked expressions over the fields of one feature.

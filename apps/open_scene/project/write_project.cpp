@@ -13,6 +13,7 @@
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/project/project_paths.h"
 #include "apps/open_scene/project/project_words.h"
+#include "streaming/objects/object_style.h"
 #include "streaming/sets/elevation_json.h"
 
 namespace terrella {
@@ -51,8 +52,8 @@ std::string time_text(UtcTime time) {
 }
 
 std::string color_text(const glm::vec3& srgb) {
-  const glm::ivec3 bytes(glm::round(255.0F * srgb));
-  return fmt::format("#{:02X}{:02X}{:02X}", bytes.r, bytes.g, bytes.b);
+  const glm::u8vec3 bytes(glm::round(255.0F * srgb));
+  return terrella::color_text(ObjectColor{bytes.r, bytes.g, bytes.b});
 }
 
 void put_surface(OrderedJson& json, const SurfaceLook& surface) {

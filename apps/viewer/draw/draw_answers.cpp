@@ -54,8 +54,10 @@ void Draw::answer(const DrawWish& wish) {
       return open_file();
     case DrawAsk::fly:
       return fly_there();
-    case DrawAsk::change:
-      return check_mark(*wish.changed) ? change(*wish.changed) : say(check_mark(*wish.changed).error().message);
+    case DrawAsk::change: {
+      const Status good = check_mark(*wish.changed);
+      return good ? change(*wish.changed) : say(good.error().message);
+    }
     default:
       return answer_place(wish);
   }
@@ -102,15 +104,12 @@ void Draw::answer_place(const DrawWish& wish) {
 void Draw::fly_there() const {
   const DrawnMark* mark = selected();
   if (mark == nullptr) return;
-  Navigator& navigator = context_.navigator;
-  const Viewport window = context_.window.framebuffer();
-  const Ellipsoid& body = context_.globe.options().body.ellipsoid;
   const auto bounds = bounds_of(drawing_scene({{*mark}}, 1.0F));
+  if (mark->places.size() > 1 && bounds) return fly_over(context_, *bounds);
+  Navigator& navigator = context_.navigator;
   Camera there{.eye = middle_of(*mark), .fov_y = navigator.camera().fov_y};
   there.eye.height_m = navigator.camera().eye.height_m;
-  const bool has_extent = mark->places.size() > 1 && bounds;
-  const double aspect = double(window.width_px) / std::max(1, window.height_px);
-  navigator.fly_to(has_extent ? camera_over(*bounds, body, there.fov_y, aspect) : there, Input::now());
+  navigator.fly_to(there, Input::now());
 }
 
 // Another file of that name is replaced only by a second save.

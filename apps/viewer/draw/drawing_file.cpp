@@ -14,16 +14,13 @@
 #include "apps/process/write_file.h"
 #include "apps/viewer/draw/drawing_scene.h"
 #include "apps/viewer/draw/geojson_shape.h"
+#include "streaming/objects/object_style.h"
 #include "streaming/objects/vector_objects.h"
 
 namespace terrella {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string hex_of(const ObjectColor& color) {
-  return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
-}
 
 // Three decimals tell all 256 steps.
 double opacity_of(const ObjectColor& color) { return std::round(1000.0 / 255.0 * color.alpha) / 1000.0; }
@@ -33,14 +30,14 @@ ordered_json properties_of(const DrawnMark& mark) {
   if (!mark.name.empty()) properties["title"] = mark.name;
   const MarkLook& look = mark.look;
   if (mark.kind == MarkKind::place) {
-    properties["marker-color"] = hex_of(look.color);
+    properties["marker-color"] = color_text(look.color);
     return properties;
   }
-  properties["stroke"] = hex_of(look.color);
+  properties["stroke"] = color_text(look.color);
   properties["stroke-opacity"] = opacity_of(look.color);
   properties["stroke-width"] = look.width_px;
   if (mark.kind == MarkKind::line) return properties;
-  properties["fill"] = hex_of(look.fill);
+  properties["fill"] = color_text(look.fill);
   properties["fill-opacity"] = opacity_of(look.fill);
   return properties;
 }

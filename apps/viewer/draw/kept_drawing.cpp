@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <span>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "apps/process/user_folder.h"
-#include "apps/process/write_file.h"
 #include "apps/viewer/draw/drawing_file.h"
-#include "apps/viewer/draw/drawing_scene.h"
+#include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/screenshot.h"
 #include "geo/body.h"
 #include "streaming/file_bytes.h"
@@ -48,17 +45,16 @@ KeptDrawing::Loaded KeptDrawing::load() {
   }
   if (text->empty()) return {};
   known_ = *text;
-  std::istringstream stream(*text);
-  const Result<ObjectFile> read = parse_geojson_objects(stream, file_->string());
-  SceneDrawing taken = read ? drawing_of(read->scene) : SceneDrawing{};
-  if (read && read->complaints.empty() && taken.left_out == 0) return {std::move(taken.drawing), {}};
+  const Result<OpenedDrawing> read = parse_drawing(*text, file_->string());
+  Drawing taken = read ? read->drawing : Drawing{};
+  if (read && read->complaints.empty() && read->left_out == 0) return {std::move(taken), {}};
   const Result<std::filesystem::path> aside = set_aside();
   if (!aside) {
     problem_ = aside.error().message;
-    return {std::move(taken.drawing), not_kept().message};
+    return {std::move(taken), not_kept().message};
   }
   known_.clear();
-  return {std::move(taken.drawing), fmt::format("Some drawings cannot be read. The file is now {}", aside->string())};
+  return {std::move(taken), fmt::format("Some drawings cannot be read. The file is now {}", aside->string())};
 }
 
 Result<std::string> KeptDrawing::save(const Drawing& drawing) {
@@ -71,11 +67,8 @@ Result<std::string> KeptDrawing::save(const Drawing& drawing) {
     if (!aside) return aside.error();
     message = "Another window has changed the drawings. Its drawings are now in " + aside->string();
   }
-  std::error_code failed;
-  std::filesystem::create_directories(file_->parent_path(), failed);
-  if (failed) return Error{file_->parent_path().string() + ": " + failed.message()};
   std::string text = drawing_geojson(drawing);
-  if (Status written = write_file(*file_, std::as_bytes(std::span(text))); !written) return written.error();
+  if (Status written = write_kept_text(*file_, text); !written) return written.error();
   known_ = std::move(text);
   return message;
 }

@@ -69,7 +69,7 @@ void Layers::draw_open(float foot) {
     case LayerAsk::lower:
       return move(wish.row, wish.ask == LayerAsk::raise);
     case LayerAsk::look_at:
-      return look_at(*rows_[wish.row].bounds);
+      return fly_over(context_, *rows_[wish.row].bounds);
     case LayerAsk::remove:
       return remove(wish.row);
     case LayerAsk::open:
@@ -208,14 +208,6 @@ void Layers::watch_tiles(const FrameStats& stats) {
   }
 }
 
-void Layers::look_at(const GeoRect& bounds) {
-  const Viewport window = context_.window.framebuffer();
-  const double aspect = double(window.width_px) / std::max(1, window.height_px);
-  Navigator& navigator = context_.navigator;
-  navigator.fly_to(camera_over(bounds, context_.globe.options().body.ellipsoid, navigator.camera().fov_y, aspect),
-                   Input::now());
-}
-
 void Layers::open(std::filesystem::path file) {
   const Globe& globe = context_.globe;
   const auto place = pick(globe.view(context_.window.framebuffer()), globe.ground(), context_.middle_px());
@@ -273,7 +265,7 @@ void Layers::add(OpenedFile file) {
     added = add_objects(std::move(objects), row);
   }
   if (!added) return say(row.name + ": " + added.error().message);
-  if (row.bounds) look_at(*row.bounds);
+  if (row.bounds) fly_over(context_, *row.bounds);
   insert(std::move(row));
   const Status kept = remember_opened(std::array{file.path.string()});
   say(kept ? told : kept.error().message);

@@ -53,7 +53,6 @@ class Layers : public Panel {
   Status use_heights(const std::optional<ElevationSource>& heights);
   void move(std::size_t row, bool up);
   void remove(std::size_t row);
-  void look_at(const GeoRect& bounds);
   void add(OpenedFile file);
   [[nodiscard]] Status add_tiles(ImageryLayer layer, LayerRow& row);
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);

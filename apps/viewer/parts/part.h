@@ -6,6 +6,7 @@
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/messages.h"
 #include "apps/viewer/window.h"
+#include "geo/coordinates.h"
 #include "globe/globe.h"
 #include "view/navigation.h"
 
@@ -25,6 +26,9 @@ struct ViewerContext {
     return 0.5 * glm::dvec2(size.width_px, size.height_px);
   }
 };
+
+/// Flies to a view of the whole rectangle. thread: main
+void fly_over(const ViewerContext& context, const GeoRect& bounds);
 
 /// A tool of the viewer with its own state. Parts do not know each other; the viewer draws them, wakes up for them and
 /// passes Esc to them. thread: main for every call

@@ -9,9 +9,9 @@
 #include "apps/open_scene/project/write_project.h"
 #include "apps/process/console.h"
 #include "apps/process/user_folder.h"
-#include "apps/process/write_file.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/recent_files.h"
 
 namespace terrella {
@@ -21,18 +21,15 @@ namespace fs = std::filesystem;
 constexpr float kProjectWidth = 26.0F;  // in text heights
 constexpr const char* kEnding = ".terrella";
 
-Status write_text(const fs::path& file, const std::string& text) {
-  std::error_code failed;
-  if (!file.parent_path().empty()) fs::create_directories(file.parent_path(), failed);
-  if (failed) return Error{file.parent_path().string() + ": " + failed.message()};
-  return write_file(file, std::as_bytes(std::span(text)));
-}
-
 }  // namespace
 
-Projects::Projects(const ViewerContext& context, std::function<SceneOptions()> describe, std::string project,
-                   bool restore)
-    : Panel(context, "Project"), describe_(std::move(describe)), project_(std::move(project)), restore_(restore) {}
+Projects::Projects(const ViewerContext& context, std::function<SceneOptions()> describe,
+                   std::function<std::string()> drawings, std::string project, bool restore)
+    : Panel(context, "Project"),
+      describe_(std::move(describe)),
+      drawings_(std::move(drawings)),
+      project_(std::move(project)),
+      restore_(restore) {}
 
 void Projects::open(const fs::path& project) {
   SceneOptions scene;
@@ -95,8 +92,10 @@ void Projects::save() {
     replaces_ = file.string();
     return say(fmt::format("{} exists; save again to replace it", file.filename().string()));
   }
-  const ProjectText project = project_text(describe_(), file.parent_path());
-  if (const Status saved = write_text(file, project.text); !saved) {
+  SceneOptions scene = describe_();
+  scene.drawings = drawings_();
+  const ProjectText project = project_text(scene, file.parent_path());
+  if (const Status saved = write_kept_text(file, project.text); !saved) {
     return context_.messages.report(saved.error().message);
   }
   project_ = file.string();
@@ -111,12 +110,10 @@ void Projects::save() {
 void Projects::keep_session() {
   const auto file = session_file();
   if (!restore_ || !file) return;
-  SceneOptions scene = describe_();
-  scene.drawings.clear();  // kept by themselves
-  std::string text = project_text(scene, {}).text;
+  std::string text = project_text(describe_(), {}).text;
   if (text == kept_) return;
   kept_ = std::move(text);
-  if (const Status saved = write_text(*file, kept_); !saved) say(saved.error().message);
+  if (const Status saved = write_kept_text(*file, kept_); !saved) say(saved.error().message);
 }
 
 std::optional<fs::path> session_file() {

@@ -16,9 +16,11 @@ namespace terrella {
 /// thread: main for every call
 class Projects : public Panel {
  public:
-  /// `describe` returns the scene as the window shows it. `project` is the file that is open; may be empty. `restore`:
+  /// `describe` returns the scene as the window shows it, without its drawings, which are kept by themselves;
+  /// `drawings` returns these. `project` is the file that is open; may be empty. `restore`:
   /// the scene is kept for the next start.
-  Projects(const ViewerContext& context, std::function<SceneOptions()> describe, std::string project, bool restore);
+  Projects(const ViewerContext& context, std::function<SceneOptions()> describe, std::function<std::string()> drawings,
+           std::string project, bool restore);
 
   /// Leaves this scene for that of a project. A project that cannot be read is reported, and the scene stays.
   void open(const std::filesystem::path& project);
@@ -39,6 +41,7 @@ class Projects : public Panel {
   void save();
 
   std::function<SceneOptions()> describe_;
+  std::function<std::string()> drawings_;
   std::string project_;
   std::array<char, 1024> text_{};  ///< text in the line for the file
   std::string replaces_;           ///< an existing file that the next click on Save replaces

@@ -22,11 +22,22 @@ Result<nlohmann::json> read_kept_json(const std::filesystem::path& file) {
 }
 
 Status write_kept_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  return write_kept_text(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+Status write_kept_text(const std::filesystem::path& file, std::string_view text) {
   std::error_code failed;
   std::filesystem::create_directories(file.parent_path(), failed);
   if (failed) return Error{file.parent_path().string() + ": " + failed.message()};
-  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   return write_file(file, std::as_bytes(std::span(text)));
+}
+
+std::string set_aside(const std::filesystem::path& file, const std::string& complaint) {
+  std::filesystem::path copy = file;
+  copy += ".damaged";
+  std::error_code failed;
+  std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing, failed);
+  return complaint + "; it is ignored" + (failed ? "" : ", and a copy is kept in " + copy.filename().string());
 }
 
 }  // namespace terrella

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
 #include "base/result.h"
 
@@ -13,5 +15,10 @@ namespace terrella {
 
 /// Writes such a file, with its folder if that is missing. The error names file or folder. thread: any
 Status write_kept_json(const std::filesystem::path& file, const nlohmann::json& json);
+/// The same for a text.
+Status write_kept_text(const std::filesystem::path& file, std::string_view text);
+
+/// Copies a damaged file to NAME.damaged, and returns a message that begins with `complaint` and says so. thread: any
+[[nodiscard]] std::string set_aside(const std::filesystem::path& file, const std::string& complaint);
 
 }  // namespace terrella

@@ -1,16 +1,12 @@
 #include "apps/viewer/tools/kept_settings.h"
 
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/process/user_folder.h"
-#include "apps/process/write_file.h"
+#include "apps/viewer/tools/kept_json.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {
@@ -48,15 +44,6 @@ Json parsed(const std::vector<std::byte>& bytes) {
   return Json::parse(text, text + bytes.size(), nullptr, false);
 }
 
-std::string set_aside(const std::filesystem::path& file, const std::string& what) {
-  std::filesystem::path copy = file;
-  copy += ".damaged";
-  std::error_code failed;
-  std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing, failed);
-  return fmt::format("{}: {}; it is ignored{}", file.string(), what,
-                     failed ? "" : ", and a copy is kept in " + copy.filename().string());
-}
-
 }  // namespace
 
 LoadedSettings load_settings(const std::filesystem::path& file) {
@@ -67,7 +54,7 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
   if (!bytes) return {.settings = {}, .first_run = false, .complaint = bytes.error().message};
   const Json json = parsed(*bytes);
   if (!json.is_object()) {
-    loaded.complaint = set_aside(file, "not a file of settings");
+    loaded.complaint = set_aside(file, file.string() + ": not a file of settings");
     return loaded;
   }
   std::string wrong;
@@ -75,22 +62,18 @@ LoadedSettings load_settings(const std::filesystem::path& file) {
     const auto field = json.find(name);
     if (field != json.end() && !read_field(*field, loaded.settings.*member) && wrong.empty()) wrong = name;
   });
-  if (!wrong.empty()) loaded.complaint = set_aside(file, "\"" + wrong + "\" is out of its range");
+  if (!wrong.empty()) loaded.complaint = set_aside(file, file.string() + ": \"" + wrong + "\" is out of its range");
   return loaded;
 }
 
 Status save_settings(const std::filesystem::path& file, const KeptSettings& settings) {
-  std::error_code failed;
-  std::filesystem::create_directories(file.parent_path(), failed);
-  if (failed) return Error{file.parent_path().string() + ": " + failed.message()};
   Json json = Json::object();
   if (const auto bytes = read_file(file, kMostSettingsBytes)) {
     Json before = parsed(*bytes);
     if (before.is_object()) json = std::move(before);
   }
   for_each_setting([&](const char* name, auto member) { json[name] = settings.*member; });
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  return write_file(file, std::as_bytes(std::span(text)));
+  return write_kept_json(file, json);
 }
 
 KeptSettings changed_since(KeptSettings kept, const KeptSettings& start, const KeptSettings& now) {

@@ -1,7 +1,5 @@
 #include "streaming/objects/classes/class_style.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,10 +11,6 @@ namespace terrella {
 namespace {
 
 using nlohmann::json;
-
-std::string color_text(const ObjectColor& color) {
-  return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
-}
 
 json step_of(const ClassStyle& style) {
   json step = {"step", {"get", style.field}};
