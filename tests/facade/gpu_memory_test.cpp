@@ -19,9 +19,11 @@ const TileGrid kManyTiles{.tile_px = 16, .max_level = 9}, kSqueezed{.tile_px = 1
 // Slots of kManyTiles have 32 px a side and 5 kB. 8 MiB of them are fewer than a driver's layers, which are at least
 // 2048; 64 GiB fill all layers with the most slots.
 constexpr std::size_t kOneSlotALayer_bytes = 8UL << 20, kSlotsALayer = 16, kSlot_bytes = 5120;
-// Places in a layer sixteen times as large are rounded otherwise, to 1/256 texel without a GPU: half a level between
-// neighbours that differ by half of all levels. A layer of numbers is blended over that.
-constexpr int kRounding_levels = 2;
+// Places in a layer sixteen times as large are rounded otherwise, and which slot a tile gets depends on the order in
+// which tiles come. A filter without a GPU rounds the place along a row, the place along a column and the level to
+// 1/256: one colour level each between neighbours that differ by all of them, as those of coarse stripes do. Its three
+// blends are rounded by half a level each. Texels of another tile would differ by dozens.
+constexpr int kRounding_levels = 4;
 
 /// A driver that says that its array textures have at most so many layers.
 class FewLayers {
