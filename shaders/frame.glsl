@@ -10,8 +10,11 @@ layout(std140, binding = 0) uniform Frame {
   vec4 texels;             // tile_px over layer_px; layer_px; slot_px over layer_px; polar scale of the row direction (TileGrid's latitude)
   // Parameters a, b of paper 1's formulas (5) and (6); 1 for equal-area rows; opacity of an upper layer.
   vec4 paper;
-  // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; unused.
+  // Special layers: 1 shows by day, -1 by night, 0 by both; 1: brightness is also alpha; the layer shows to the left of
+  // this place in the eye's picture, or to the right of its negative, pixels, or with 0 everywhere. Layers of numbers:
+  // 1: neither lit nor seen through the air.
   vec4 layer_look;
+  vec4 layer_tone;           // special layers: brightness, contrast, 1/gamma (ImageTone); 0: the colours stay as they are
   // Offsets from the eye, metres, into the axes of the horizon in scaled space (engine/render/sky/air_textures.h); the
   // last column has the square of the polar over the equatorial radius, one over the distance of the horizon, and
   // the eye's radius and height, metres. The last row is unused.
@@ -23,7 +26,8 @@ layout(std140, binding = 0) uniform Frame {
   // body of dust; longest pixel, texels, for which oblique patches take three taps; 1 at a time, 0 if the Sun is only a
   // lamp.
   vec4 surface_look;
-  vec4 axis_px;              // place of the forward axis in the picture, pixels; slope of a pixel; unused
+  // Place of the forward axis in the picture, pixels; slope of a pixel; left side of the eye's picture, pixels.
+  vec4 axis_px;
   // The raised limb of PatchPass::set_limb(): its height, metres; square of the cosine towards the eye up to which it is
   // raised; unused.
   vec4 limb;

@@ -6,6 +6,7 @@
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/scene_objects.h"
+#include "apps/open_scene/swipe_sides.h"
 #include "apps/process/console.h"
 
 namespace terrella {
@@ -40,6 +41,7 @@ class SceneOpener {
   Status add_image(const SourceOptions& source, const ImageLook& look);
   Status add_pictures(const Url& address, const ImageLook& look);
   Status add_images();
+  Status choose_sides();
   Status add_object_layers();
   Status leave_out(const Error& why);
 
@@ -130,6 +132,25 @@ Status SceneOpener::add_images() {
   return Done{};
 }
 
+/// Chooses the sides of --swipe.
+Status SceneOpener::choose_sides() {
+  if (!options_.surface.swipe) return Done{};
+  std::vector<ImageLook> looks;
+  looks.reserve(scene_.images.size());
+  for (const SceneLayer& image : scene_.images) {
+    const Result<ImageLook> look = scene_.globe->look(image.id);
+    if (!look) return look.error();
+    looks.push_back(*look);
+  }
+  if (!choose_swipe_sides(looks) && scene_.left_out.empty()) {
+    return Error{"--swipe compares image layers, and only one is shown; add another one with --overlay"};
+  }
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (Status set = scene_.globe->set_look(scene_.images[i].id, looks[i]); !set) return set;
+  }
+  return Done{};
+}
+
 Status SceneOpener::add_object_layers() {
   std::vector<ObjectsOption> layers = options_.object_layers;
   if (!options_.objects.empty())
@@ -163,6 +184,7 @@ Result<OpenedScene> SceneOpener::open(const PrepareGlobe& prepare) {
   if (Status made = make_globe(*prepared, *std::move(base)); !made) return made.error();
   set_paper_texturing(*scene_.globe, options_);
   if (Status added = add_images(); !added) return added.error();
+  if (Status chosen = choose_sides(); !chosen) return chosen.error();
   if (Status added = add_object_layers(); !added) return added.error();
   scene_.all_objects = scene_.all_objects && scene_.left_out.empty();
   return std::move(scene_);

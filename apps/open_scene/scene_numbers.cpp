@@ -156,6 +156,7 @@ Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOpt
   auto look = look_of(options.colormap, stretch_by(rule, known), !options.stretch.empty(), known);
   if (!look) return look.error();
   layer.look.numbers = *std::move(look);
+  layer.look.numbers->lit = options.lit;
   layer.numbers = std::move(facts);
   return layer;
 }

@@ -308,6 +308,38 @@ void set_opacity(PythonGlobe& self, std::uint64_t layer, double opacity) {
   }));
 }
 
+void set_tone(PythonGlobe& self, std::uint64_t layer, double brightness, double contrast, double gamma) {
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    const auto look = globe.look(LayerId{layer});
+    if (!look) return look.error();
+    ImageLook changed = *look;
+    changed.tone = {.brightness = brightness, .contrast = contrast, .gamma = gamma};
+    return globe.set_look(LayerId{layer}, changed);
+  }));
+}
+
+/// Shows layers on one side of a line; none: everywhere.
+void set_swipe(PythonGlobe& self, std::optional<double> line, std::optional<std::uint64_t> before,
+               std::optional<std::uint64_t> behind) {
+  if (line && !(*line >= 0.0 && *line <= 1.0)) throw py::value_error("the line must be from 0 to 1");
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    for (const auto& layer : {before, behind}) {
+      if (layer && !globe.look(LayerId{*layer})) return globe.look(LayerId{*layer}).error();
+    }
+    for (const LayerId id : globe.imagery()) {
+      ImageLook look = *globe.look(id);
+      look.swipe = before && id == LayerId{*before}   ? SwipeSide::before
+                   : behind && id == LayerId{*behind} ? SwipeSide::behind
+                                                      : SwipeSide::both;
+      if (Status set = globe.set_look(id, look); !set) return set;
+    }
+    SurfaceLook surface = globe.options().surface;
+    surface.swipe = line;
+    globe.set_surface(surface);
+    return globe.status();
+  }));
+}
+
 std::vector<std::uint64_t> numbers_of(const std::vector<LayerId>& ids) {
   std::vector<std::uint64_t> numbers;
   for (const LayerId id : ids) numbers.push_back(static_cast<std::uint64_t>(id));
@@ -345,6 +377,14 @@ void add_layer_methods(GlobeClass& globe) {
            "show(self, layer, shown=True)\n--\n\nShow or hide a layer.")
       .def("set_opacity", &set_opacity, py::arg("layer"), py::arg("opacity"),
            "set_opacity(self, layer, opacity)\n--\n\nSet the opacity of a layer, 0 to 1.")
+      .def("set_tone", &set_tone, py::arg("layer"), py::arg("brightness") = 0.0, py::arg("contrast") = 1.0,
+           py::arg("gamma") = 1.0,
+           "set_tone(self, layer, brightness=0.0, contrast=1.0, gamma=1.0)\n--\n\n"
+           "Change the colours of a layer of pictures: brightness -1 to 1, contrast 0 to 4, gamma 0.1 to 10.")
+      .def("set_swipe", &set_swipe, py::arg("line"), py::arg("before") = py::none(), py::arg("behind") = py::none(),
+           "set_swipe(self, line, before=None, behind=None)\n--\n\n"
+           "Compare two layers of imagery at a line, a fraction of the picture's width: one shows to its left, the "
+           "other to its right. Line None: all layers show everywhere.")
       .def(
           "remove",
           [](PythonGlobe& self, std::uint64_t layer) {

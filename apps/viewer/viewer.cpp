@@ -46,7 +46,8 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   started_ = now_kept();
   if (options.first_run) messages_.say(kHint, kHintTime);
   if (!options.message.empty()) messages_.say(options.message);
-  input_.set_dragger([this](DragStep step, glm::dvec2 at_px) { return draw_.drag(step, at_px); });
+  input_.set_dragger(
+      [this](DragStep step, glm::dvec2 at_px) { return swipe_.drag(step, at_px) || draw_.drag(step, at_px); });
   draw_.restore(options.scene);
 }
 
@@ -209,6 +210,7 @@ void Viewer::draw_balloon(const View& view, float foot) {
 // Draws items where the panels leave room.
 void Viewer::draw_over_panels(const View& view, float foot) {
   const auto cursor_px = input_.is_over_panel() ? std::nullopt : input_.cursor_px();
+  swipe_.draw_over(view);
   measure_.draw_over(view, cursor_px, foot);
   draw_.draw_over(view, cursor_px);
   const bool narrow = view.viewport.width_px < kRoomForBoth * Ui::text_height() * window_.pixels_per_unit().x;
@@ -246,7 +248,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 8> newest{&pictures_, &search_, &open_, &projects_, &bookmarks_, &draw_, &layers_, &modes_};
+  std::array<Panel*, 9> newest{&pictures_,  &profile_, &search_, &open_, &projects_,
+                               &bookmarks_, &draw_,    &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

@@ -28,7 +28,9 @@
 #include "apps/viewer/parts/place_menu.h"
 #include "apps/viewer/parts/search.h"
 #include "apps/viewer/parts/view_modes.h"
+#include "apps/viewer/profile/profile.h"
 #include "apps/viewer/projects/projects.h"
+#include "apps/viewer/swipe/swipe.h"
 #include "apps/viewer/tools/kept_settings.h"
 #include "apps/viewer/tools/view_history.h"
 #include "apps/viewer/window.h"
@@ -85,6 +87,7 @@ class Viewer {
   void add_middle();
   void take_back();
   void save_drawn();
+  void toggle_swipe();
   [[nodiscard]] bool is_closed();
   void follow_panels();
   [[nodiscard]] Part* front_panel() const;
@@ -132,8 +135,11 @@ class Viewer {
   Projects projects_{context_, [this] { return scene(); }, [this] { return draw_.text(); }, options_.scene.project,
                      options_.kept.restore};
   ViewModes modes_;
+  Swipe swipe_{context_};
   Draw draw_{context_};
-  Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); }};
+  Profile profile_{context_, [this] { return measure_.places(); }, [this] { return layers_.shown_numbers(); }};
+  Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); },
+                   [this] { profile_.toggle(); }};
   Balloon balloon_{context_,
                    [this](LayerId layer) { return draw_.owns(layer) ? "Drawings" : layers_.shown_objects(layer); }};
   Cutting cutting_;
@@ -147,8 +153,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 14> parts_{&help_,    &menu_, &pictures_, &search_, &open_,    &projects_, &bookmarks_,
-                                     &balloon_, &draw_, &layers_,   &modes_,  &measure_, &cutting_,  &map_};
+  const std::array<Part*, 15> parts_{&help_,     &menu_,      &pictures_, &search_,  &open_,
+                                     &projects_, &bookmarks_, &balloon_,  &profile_, &draw_,
+                                     &layers_,   &modes_,     &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

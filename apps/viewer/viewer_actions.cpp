@@ -60,6 +60,13 @@ void Viewer::take_back() { draw_.is_sketching() ? draw_.take_back() : measure_.t
 
 void Viewer::save_drawn() { draw_.is_open() && !measure_.is_on() ? draw_.save() : measure_.save(); }
 
+void Viewer::toggle_swipe() {
+  if (!swipe_.is_on() && !layers_.choose_swipe_sides())
+    return messages_.say("A swipe compares image layers, and only one is shown. Ctrl + O adds another one.");
+  swipe_.show(!swipe_.is_on());
+  messages_.say(swipe_.is_on() ? "Swipe on: drag the line; L chooses the side of each layer" : "Swipe off");
+}
+
 void Viewer::click(glm::dvec2 at_px) {
   if (draw_.click(at_px)) return;
   measure_.is_on() ? measure_.add(at_px) : balloon_.click(at_px);
@@ -214,6 +221,12 @@ constinit const Action Viewer::kActions[] = {
      .characters = U"d",
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Keep"},
+    {.keys = "Ctrl + P",
+     .what = "measure: profile of heights and numbers",
+     .run = [](V v) { v.profile_.toggle(); },
+     .characters = U"p",
+     .flags = Action::ctrl | Action::unlisted,
+     .mouse = "Profile"},
     {.keys = "Ctrl + S",
      .what = "measure, draw: save as GeoJSON or KML",
      .run = [](V v) { v.save_drawn(); },
@@ -247,6 +260,7 @@ constinit const Action Viewer::kActions[] = {
      .mouse = "menu, drop a file"},
     {"J", "project: save, restore at the next start, new", [](V v) { v.projects_.toggle(); }, U"j", 0, 0,
      Action::types},
+    {"V", "swipe: compare layers at a line", [](V v) { v.toggle_swipe(); }, U"v"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},
     {"X", "go under the ground, and back", [](V v) { v.modes_.toggle_underground(); }, U"x"},
     {"B", "sky on or off", [](V v) { v.modes_.toggle_sky(); }, U"b"},

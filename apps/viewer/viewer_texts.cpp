@@ -21,7 +21,7 @@ PanelStatus Viewer::status(const View& view) {
   const auto cursor = input_.cursor_px();
   if (const auto place = cursor ? pick(view, ground, *cursor) : std::nullopt) {
     status.cursor = place_text(*place, pixel_step_deg(view, ground));
-    if (const std::string value = layers_.value_at(*place); !value.empty()) status.cursor += "   " + value;
+    if (const std::string value = layers_.value_at(*place, cursor->x); !value.empty()) status.cursor += "   " + value;
     const auto elevation_m = globe_.elevation_m(place->lat, place->lon);
     if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
   }

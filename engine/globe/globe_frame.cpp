@@ -27,13 +27,13 @@ glm::dvec3 sun_over_the_shoulder(const View& view) {
 void GlobeView::Impl::stack_layers() {
   stack.clear();
   for (const auto& layer : globe->images) {
-    if (layer->is_drawn(globe->has_night())) {
+    if (layer->is_drawn(globe->sides())) {
       stack.push_back(&layer->seen_by(id));
     } else {
       layer->stop_asking();
     }
   }
-  if (stack.empty() || !stack.front()->layer().is_opaque(globe->has_night())) {
+  if (stack.empty() || !stack.front()->layer().is_opaque(globe->sides())) {
     if (!globe->plain) globe->plain = ImageLayer::make_plain(globe->setup());
     stack.insert(stack.begin(), &globe->plain->seen_by(id));
   }
@@ -149,7 +149,7 @@ FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px)
                    .paper_band = globe->experiments.paper_band,
                    .naive_translucency = globe->experiments.naive_translucency,
                    .layers_one_by_one = globe->experiments.layers_one_by_one};
-  for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->has_night()));
+  for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->sides()));
   return input;
 }
 

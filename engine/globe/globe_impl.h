@@ -53,6 +53,7 @@ struct Globe::Impl {
   // A frame of any view.
   std::size_t take_finished();
   [[nodiscard]] bool has_night() const { return almanac && options.time && !options.unlit; }
+  [[nodiscard]] PictureSides sides() const { return {has_night(), options.surface.swipe.has_value()}; }
   [[nodiscard]] Ground ground() const { return {options.body.ellipsoid, heights ? heights->relief() : nullptr}; }
   void restore_detail();  ///< restores the full detail of all views
 

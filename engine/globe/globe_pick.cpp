@@ -20,7 +20,7 @@ bool holds(const TileGrid& grid, const Ellipsoid& ellipsoid, const Geodetic& pla
 
 bool GlobeView::Impl::shows(const ImageLayer& layer, const Geodetic& place) const {
   const bool has_night = globe->has_night();
-  if (!layer.is_drawn(has_night) || !holds(layer.grid(), globe->options.body.ellipsoid, place)) return false;
+  if (!layer.is_drawn(globe->sides()) || !holds(layer.grid(), globe->options.body.ellipsoid, place)) return false;
   if (!has_night) return true;
   const double sun_sine = glm::dot(Ellipsoid::normal(place.lat, place.lon).xyz, sun());
   return part_shown(layer.look().daylight, sun_sine) > 0.0;
@@ -41,7 +41,8 @@ GlobePick GlobeView::Impl::pick(glm::dvec2 pixel_px, Viewport viewport) const {
   const Ground drawn_ground = globe->ground();
   found.place = terrella::pick(eye, drawn_ground, pixel_px);
   for (const auto& layer : globe->images) {
-    if (found.place && shows(*layer, *found.place)) found.imagery = layer->id();
+    const bool on_side = shows_at(layer->look().swipe, globe->options.surface.swipe, pixel_px.x, viewport.width_px);
+    if (found.place && on_side && shows(*layer, *found.place)) found.imagery = layer->id();
   }
   const PickOptions how{.through_ground = globe->options.surface.alpha < 1.0};
   for (const ObjectLayer& layer : globe->objects) {

@@ -140,23 +140,24 @@ void ImageLayer::request(const LayerView& asking) {
   stream_->request(all);
 }
 
-bool ImageLayer::is_drawn(bool has_night) const {
-  return look_.shown && look_.opacity > 0.0 && (has_night || look_.daylight != Daylight::night);
+bool ImageLayer::is_drawn(const PictureSides& sides) const {
+  return look_.shown && look_.opacity > 0.0 && (sides.night || look_.daylight != Daylight::night);
 }
 
-bool ImageLayer::is_opaque(bool has_night) const {
+bool ImageLayer::is_opaque(const PictureSides& sides) const {
   // A base layer of numbers shows the plain colour where it has none.
   const bool covers = has_numbers() || !has_transparency_;
-  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(has_night);
+  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(sides);
 }
 
-bool ImageLayer::hides(bool has_night) const {
-  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(has_night);
+bool ImageLayer::hides(const PictureSides& sides) const {
+  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(sides);
 }
 
-bool ImageLayer::is_special(bool has_night) const {
+bool ImageLayer::is_special(const PictureSides& sides) const {
   return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
-         (has_night && look_.daylight != Daylight::both);
+         (sides.night && look_.daylight != Daylight::both) || (sides.swipe && look_.swipe != SwipeSide::both) ||
+         look_.tone != ImageTone{};
 }
 
 // An upload evicts tiles that no view needs. A view that takes more than its room is not spared.

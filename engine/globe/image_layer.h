@@ -50,13 +50,13 @@ class ImageLayer {
   [[nodiscard]] bool was_invalidated() const { return was_invalidated_; }
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.
-  [[nodiscard]] bool is_drawn(bool has_night) const;
+  [[nodiscard]] bool is_drawn(const PictureSides& sides) const;
   /// True if the layer can be the lowest one: it hides the plain colour wherever it has tiles.
-  [[nodiscard]] bool is_opaque(bool has_night) const;
+  [[nodiscard]] bool is_opaque(const PictureSides& sides) const;
   /// True if the layer hides all layers under it wherever it has tiles.
-  [[nodiscard]] bool hides(bool has_night) const;
-  /// True if the layer needs special programs: it shows on one side of the terminator, or brightness is its alpha.
-  [[nodiscard]] bool is_special(bool has_night) const;
+  [[nodiscard]] bool hides(const PictureSides& sides) const;
+  /// True if the layer needs special programs (LayerFrame::special).
+  [[nodiscard]] bool is_special(const PictureSides& sides) const;
   [[nodiscard]] const std::string& attribution() const { return attribution_; }
   void set_attribution(std::string text) { attribution_ = std::move(text); }
   [[nodiscard]] const TileGrid& grid() const { return grid_; }

@@ -79,12 +79,12 @@ void LayerView::keep_tiles(std::uint64_t frame) const {
   }
 }
 
-LayerFrame LayerView::frame(bool is_base, bool has_night) {
+LayerFrame LayerView::frame(bool is_base, const PictureSides& sides) {
   const ImageLook& look = layer_.look();
   NumberColors* numbers = layer_.numbers();
   if (numbers != nullptr) numbers->set(*look.numbers);
   gpu_.numbers = numbers;
-  hides_ = layer_.hides(has_night);
+  hides_ = layer_.hides(sides);
   layer_.tiles().set_empty(is_base ? TileTextures::Empty::plain_colour : TileTextures::Empty::transparent);
   return {.tree = tree_.get(),
           .patches = &patches_,
@@ -93,10 +93,13 @@ LayerFrame LayerView::frame(bool is_base, bool has_night) {
           .gpu = &gpu_,
           .vertices = &layer_.vertices(),
           .opacity = is_base ? 1.0 : look.opacity,
-          .daylight = has_night ? look.daylight : Daylight::both,
+          .daylight = sides.night ? look.daylight : Daylight::both,
           .alpha = look.alpha,
+          .swipe = sides.swipe ? look.swipe : SwipeSide::both,
+          .tone = look.tone,
+          .unlit = numbers != nullptr && !look.numbers->lit,
           .height_m = is_base ? 0.0 : look.height_m,
-          .special = layer_.is_special(has_night),
+          .special = layer_.is_special(sides),
           .hides = hides_ && numbers == nullptr};
 }
 

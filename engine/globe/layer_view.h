@@ -16,6 +16,12 @@ class ImageLayer;
 /// Identifier of a view, unique within its globe.
 enum class ViewId : std::uint64_t {};
 
+/// Lines that may divide a picture between its layers.
+struct PictureSides {
+  bool night = false;  ///< the terminator
+  bool swipe = false;  ///< SurfaceLook::swipe
+};
+
 /// One image layer as one view draws it: the patches, and the tiles that they want. ImageLayer holds the tiles, which
 /// all views share. thread: main
 class LayerView {
@@ -48,7 +54,7 @@ class LayerView {
   [[nodiscard]] const std::vector<TileRequest>& requests() const { return requests_; }
   /// Marks the tiles that the view's last frame needs as needed in a later frame, so that they are not evicted.
   void keep_tiles(std::uint64_t frame) const;
-  [[nodiscard]] LayerFrame frame(bool is_base, bool has_night);
+  [[nodiscard]] LayerFrame frame(bool is_base, const PictureSides& sides);
 
   [[nodiscard]] bool settled() const;
   /// True if a frame of the view would have something to do: see TileStream::has_news(); or the source has a new

@@ -27,14 +27,14 @@ void GlobeRenderer::plan_stacks(const Pass& pass) {
                       !pass.input.naive_translucency && !pass.input.layers_one_by_one;
   for (const LayerFrame& layer : layers) {
     const bool night = layer.daylight == Daylight::night;
-    const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
     stack_layers_.push_back({.patches = layer.patches,
                              .coverage = layer.coverage,
                              .tiles = layer.tiles,
                              .numbers = layer.gpu->numbers,
                              .texels = texels_of(layer),
-                             .look = {layer.opacity, layer.daylight == Daylight::both ? 0.0F : side,
-                                      layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F},
+                             .opacity = static_cast<float>(layer.opacity),
+                             .look = look_of(pass, layer),
+                             .tone = tone_of(layer),
                              .special = layer.special,
                              .hides = layer.hides});
     const bool fits =

@@ -51,8 +51,12 @@ struct LayerFrame {
   double opacity = 1.0;
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
+  SwipeSide swipe = SwipeSide::both;
+  ImageTone tone{};
+  bool unlit = false;     ///< neither lit nor seen through the air
   double height_m = 0.0;  ///< ImageLook::height_m
-  /// The layer needs special programs: it shows on one side of the terminator, or takes alpha from brightness.
+  /// The layer needs special programs: it shows on one side of a line, takes alpha from brightness, or has a height
+  /// or a tone.
   bool special = false;
   bool hides = false;  ///< hides all layers under it wherever it has tiles
 };
@@ -218,9 +222,11 @@ class GlobeRenderer {
   [[nodiscard]] static PatchLight light_of(const FrameInput& input);
   void upload_frame(const Pass& pass);
   [[nodiscard]] glm::vec4 texels_of(const LayerFrame& layer) const;
-  void upload_frame(const LayerFrame& layer) const;
+  void upload_frame(const Pass& pass, const LayerFrame& layer) const;
   void describe_limb(const Pass& pass, FrameBlock& block) const;
-  void describe_layer(const LayerFrame& layer, FrameBlock& block) const;
+  void describe_layer(const Pass& pass, const LayerFrame& layer, FrameBlock& block) const;
+  [[nodiscard]] static glm::vec4 look_of(const Pass& pass, const LayerFrame& layer);
+  [[nodiscard]] static glm::vec4 tone_of(const LayerFrame& layer);
   void draw_surface(const Pass& pass) const;
   void draw_layers(const Pass& pass, SurfaceFromBelow look, DrawState state) const;
   void draw_air_before_glass(const Pass& pass, DrawState state) const;

@@ -78,7 +78,7 @@ void GlobeRenderer::draw_surface(const Pass& pass) const {
   const SurfaceFromBelow look = surface_look(pass);
   DrawState state = picture_state(pass.eye);
   if (under_ground(pass)) state.cull = GL_FRONT;
-  for (const LayerFrame& layer : pass.upper()) upload_frame(layer);
+  for (const LayerFrame& layer : pass.upper()) upload_frame(pass, layer);
   if (look != SurfaceFromBelow::opaque) {
     DrawState depth_only = state;
     depth_only.color = {false, false, false, false};
@@ -224,13 +224,29 @@ glm::vec4 GlobeRenderer::texels_of(const LayerFrame& layer) const {
 }
 
 // Sets the uniforms that depend on a layer.
-void GlobeRenderer::describe_layer(const LayerFrame& layer, FrameBlock& block) const {
+void GlobeRenderer::describe_layer(const Pass& pass, const LayerFrame& layer, FrameBlock& block) const {
   block.texels = texels_of(layer);
   block.paper.z = layer.tree->grid().projection == Projection::equal_area ? 1.0F : 0.0F;
   block.paper.w = static_cast<float>(layer.opacity);
-  const float side = layer.daylight == Daylight::day ? 1.0F : -1.0F;
-  block.layer_look = glm::vec4(layer.daylight == Daylight::both ? 0.0F : side,
-                               layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F, 0.0F, 0.0F);
+  block.layer_look = look_of(pass, layer);
+  block.layer_tone = tone_of(layer);
+}
+
+// Values of FrameBlock::layer_look.
+glm::vec4 GlobeRenderer::look_of(const Pass& pass, const LayerFrame& layer) {
+  const float side = layer.daylight == Daylight::both ? 0.0F : layer.daylight == Daylight::day ? 1.0F : -1.0F;
+  float line_px = 0.0F;
+  if (layer.swipe != SwipeSide::both && pass.input.surface.swipe) {
+    // A quarter of a pixel keeps the line off the middles of pixels, and off 0.
+    line_px = static_cast<float>(swipe_px(*pass.input.surface.swipe, pass.eye.view.viewport.width_px) + 0.25);
+  }
+  return {side, layer.alpha == AlphaFrom::brightness ? 1.0F : 0.0F,
+          layer.swipe == SwipeSide::behind ? -line_px : line_px, layer.unlit ? 1.0F : 0.0F};
+}
+
+// Values of FrameBlock::layer_tone.
+glm::vec4 GlobeRenderer::tone_of(const LayerFrame& layer) {
+  return {layer.tone.brightness, layer.tone.contrast, 1.0 / layer.tone.gamma, layer.tone == ImageTone{} ? 0.0 : 1.0};
 }
 
 PatchLight GlobeRenderer::light_of(const FrameInput& input) {
@@ -255,7 +271,7 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   }
   const double focal_px = view.pixels_per_radian(), left_px = pass.eye.left_px;
   block.axis_px = glm::vec4(left_px + 0.5 * view.viewport.width_px - view.shear_x * focal_px,
-                            0.5 * view.viewport.height_px, 1.0 / focal_px, 0.0);
+                            0.5 * view.viewport.height_px, 1.0 / focal_px, left_px);
   if (limb_look(pass, air_) == LimbLook::whole) describe_limb(pass, block);
   if (light_of(pass.input).relief) {
     block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
@@ -265,14 +281,14 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
   block.surface_look =
       glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight,
                 pass.input.lit ? lit_footprint_texels(pass.input) : kShortPixel_texels, pass.input.timed ? 1.0F : 0.0F);
-  describe_layer(pass.base(), block);
+  describe_layer(pass, pass.base(), block);
   glNamedBufferSubData(frame_block_.name(), 0, sizeof(block), &block);
 }
 
-void GlobeRenderer::upload_frame(const LayerFrame& layer) const {
+void GlobeRenderer::upload_frame(const Pass& pass, const LayerFrame& layer) const {
   if (layer.patches->empty()) return;
   FrameBlock block = frame_;
-  describe_layer(layer, block);
+  describe_layer(pass, layer, block);
   gl::Buffer& buffer = layer.gpu->frame_block;
   if (!buffer) {
     buffer = gl::make_buffer();

@@ -26,6 +26,28 @@ enum class AlphaFrom {
   brightness  ///< the largest of red, green and blue counts too: black shows the layers below, as in cloud pictures
 };
 
+/// Change of a layer's colours, before light and air. A value c of a channel becomes
+/// ((c - 0.5) · contrast + 0.5 + brightness)^(1/gamma), within [0, 1].
+struct ImageTone {
+  double brightness = 0.0;  ///< [-1, 1]
+  double contrast = 1.0;    ///< [0, 4]
+  double gamma = 1.0;       ///< [0.1, 10]; more is brighter
+  bool operator==(const ImageTone&) const = default;
+};
+
+/// Side of the swipe's line (SurfaceLook::swipe) on which an image layer shows. Without a line it shows everywhere.
+enum class SwipeSide {
+  both,
+  before,  ///< to the left of the line
+  behind   ///< to the right of the line
+};
+
+/// Abscissa of the line of SurfaceLook::swipe in a picture, a whole number: it lies between two columns of pixels.
+/// thread: any
+[[nodiscard]] double swipe_px(double line, int width_px);
+/// True if a layer of that side shows at an abscissa of a picture that is `width_px` wide. thread: any
+[[nodiscard]] bool shows_at(SwipeSide side, const std::optional<double>& line, double x_px, int width_px);
+
 /// Appearance of an image layer; can change from frame to frame.
 struct ImageLook {
   bool shown = true;
@@ -38,6 +60,9 @@ struct ImageLook {
   /// Height of an upper layer over the ellipsoid, metres, [0, 1e6], such as that of clouds. The layer moves against the
   /// ground and throws a shadow on it. An eye below this height sees the layer on the ground, and no shadow.
   double height_m = 0.0;
+  SwipeSide swipe = SwipeSide::both;
+  /// Tone of a layer of pictures. The sea in a lowest layer with one does not mirror the Sun.
+  ImageTone tone{};
   /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.
   std::optional<NumberLook> numbers = {};
   bool operator==(const ImageLook&) const = default;

@@ -18,6 +18,9 @@ struct NumberLook {
   /// [low, high], only the half of the map on the stretch's side is used. None: the middle of low and high.
   std::optional<double> center = {};
   ColorMap colors = {.stops = {{0.0, {0, 0, 0}}, {1.0, {255, 255, 255}}}};
+  /// The Sun, the relief and the air change the colours, as those of a picture. False: each pixel has the colour that
+  /// the map gives its value, by night and at the limb too.
+  bool lit = false;
   bool operator==(const NumberLook&) const = default;
 };
 

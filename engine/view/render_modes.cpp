@@ -12,6 +12,7 @@ Status check_surface(const SurfaceLook& surface) {
       .known("horizon_culling", surface.horizon_culling, HorizonCulling::off)
       .known("sharpness", surface.sharpness, Sharpness::bicubic)
       .in("the depth of the inner sphere", surface.inner_sphere_below_m.value_or(0.0), 0.0, 6378137.0, " m")
+      .in("the place of the swipe's line", surface.swipe.value_or(0.0), 0.0, 1.0)
       .in("the red of the inner sphere", surface.inner_sphere_srgb.r, 0.0, 1.0)
       .in("the green of the inner sphere", surface.inner_sphere_srgb.g, 0.0, 1.0)
       .in("the blue of the inner sphere", surface.inner_sphere_srgb.b, 0.0, 1.0)

@@ -65,6 +65,9 @@ struct SurfaceLook {
   Sharpness sharpness = Sharpness::automatic;
   /// The Sun's glint on the Earth's seas, where the base layer is as blue as water. Only with a sky and a time.
   bool glint = true;
+  /// Place of the line between layers that are compared (ImageLook::swipe), as a fraction of the picture's width from
+  /// the left, [0, 1]. In stereo each eye's picture has one. None: every layer shows everywhere.
+  std::optional<double> swipe{};
   bool operator==(const SurfaceLook&) const = default;
 };
 

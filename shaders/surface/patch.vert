@@ -39,7 +39,7 @@ layout(location = 10) in uvec4 patch_window_3;
 // The point of the patch, 0 to 1 along its sides, for the pictures of what lies on it.
 #if defined(ON_GROUND)
 layout(location = 15) in uvec4 patch_ground;
-layout(location = 12) uniform int points_a_side;
+layout(location = 20) uniform int points_a_side;
 out vec2 ground_point;
 out float object_light;
 flat out uvec4 ground_window;

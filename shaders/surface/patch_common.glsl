@@ -124,6 +124,16 @@ float part_shown(float side) {
   float night = lamplight(dot(normalize(ground_normal()), sun_ecef.xyz));
   return side > 0.0 ? 1.0 - night : night;
 }
+// 1 on the side of the swipe's line that `line` says, else 0: layer_look.z.
+float on_side(float line) {
+  return line == 0.0 || (gl_FragCoord.x - axis_px.w < abs(line)) == (line > 0.0) ? 1.0 : 0.0;
+}
+// A premultiplied colour after layer_tone.
+vec3 toned(vec3 imagery_srgb, float alpha, vec4 tone) {
+  if (tone.w == 0.0) return imagery_srgb;
+  vec3 color = imagery_srgb / max(alpha, 1e-3);
+  return pow(clamp((color - 0.5) * tone.y + 0.5 + tone.x, 0.0, 1.0), vec3(tone.z)) * alpha;
+}
 float brightness(vec3 imagery_srgb) { return max(max(imagery_srgb.r, imagery_srgb.g), imagery_srgb.b); }
 
 // The result equals blending all layers first and lighting the blend. Layers that show by night emit light and are not
@@ -136,8 +146,9 @@ void finish(Imagery imagery_srgb) {
   const float alpha = 1.0, share = 1.0;
 #endif
 #if defined(SPECIAL_LAYER)
+  imagery_srgb.rgb = toned(imagery_srgb.rgb, alpha, layer_tone);
   if (layer_look.y > 0.0) alpha = brightness(imagery_srgb.rgb);
-  share *= part_shown(layer_look.x);
+  share *= part_shown(layer_look.x) * on_side(layer_look.z);
   if (surface_look.x < 0.0) {                    // the layer's shadow on the ground, behind the air
     color_srgb = vec4(through_air(vec3(0.0), 1.0), 1.0) * (alpha * share * shadow_of_layer);
     WRITE_DEPTH(1.0);
@@ -151,7 +162,11 @@ void finish(Imagery imagery_srgb) {
 #else
   vec3 color = lit(imagery_srgb.rgb, alpha, true);
 #endif
+#if defined(NUMBERS)
+  color_srgb = (layer_look.w > 0.0 ? vec4(imagery_srgb.rgb, alpha) : vec4(through_air(color, alpha), alpha)) * share;
+#else
   color_srgb = vec4(through_air(color, alpha), alpha) * share;
+#endif
   WRITE_DEPTH(1.0);
 }
 

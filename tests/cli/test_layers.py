@@ -4,6 +4,7 @@ import json
 import unittest
 
 import pictures
+import png
 from program import FAILED, WRONG_USAGE, ProgramTest
 
 SMALL = ["--size", "64x64", "--sky", "off", "-o", "out.png"]
@@ -46,6 +47,45 @@ class Layers(ProgramTest):
     def test_an_opacity_that_is_none(self):
         self.assert_fails(WRONG_USAGE, "render", "ground.gpkg", *SMALL, "--clouds", "lamps.gpkg:1.5",
                           says=["--clouds", "lamps.gpkg:1.5"])
+
+
+class Swipe(ProgramTest):
+    """--swipe: each side of the line is the picture with that side's layer alone."""
+
+    COLORS = {"ground": (0, 0, 200), "first": (200, 0, 0), "second": (0, 200, 0)}
+
+    def setUp(self):
+        super().setUp()
+        for name, color in self.COLORS.items():
+            self.write(f"{name}.png", pictures.png(256, 128, color))
+
+    def seen(self, *arguments):
+        """The colours left and right of the middle."""
+        self.assert_done("render", "ground.png", *SMALL, "--unlit", "--cache", "off", "--camera", "0,0,1e6", *arguments)
+        picture = png.read(self.folder / "out.png")
+        return [self.named(png.pixel(picture, x, 32)) for x in (4, 30, 34, 60)]
+
+    def named(self, pixel):
+        """The layer of a colour; tiles are JPEG, which rounds."""
+        return next(name for name, color in self.COLORS.items()
+                    if all(abs(a - b) <= 3 for a, b in zip(pixel, color)))
+
+    def test_two_overlays_are_compared_at_the_line(self):
+        both = ["--overlay", "first.png", "--overlay", "second.png"]
+        self.assertEqual(self.seen(*both), ["second"] * 4)
+        self.assertEqual(self.seen(*both, "--swipe", "0.5"), ["second", "second", "first", "first"])
+        self.assertEqual(self.seen(*both, "--swipe", "0"), ["first"] * 4)
+        self.assertEqual(self.seen(*both, "--swipe", "1"), ["second"] * 4)
+
+    def test_one_overlay_is_compared_with_what_lies_under_it(self):
+        self.assertEqual(self.seen("--overlay", "first.png", "--swipe", "0.5"), ["first", "first", "ground", "ground"])
+
+    def test_one_layer_cannot_be_compared(self):
+        self.assert_fails(FAILED, "render", "ground.png", *SMALL, "--cache", "off", "--swipe", "0.5",
+                          says=["--swipe", "--overlay"])
+
+    def test_a_place_outside_the_picture(self):
+        self.assert_fails(WRONG_USAGE, "render", "ground.png", *SMALL, "--swipe", "1.5", says=["--swipe"])
 
 
 if __name__ == "__main__":

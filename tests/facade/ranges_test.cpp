@@ -23,6 +23,7 @@ const std::vector<Row<SurfaceLook>> kSurfaceRows = {
     {"from_below", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.from_below = SurfaceFromBelow(int(v)); }},
     {"horizon_culling", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.horizon_culling = HorizonCulling(int(v)); }},
     {"sharpness", {0, 2}, {-1, 3}, [](SurfaceLook& s, double v) { s.sharpness = Sharpness(int(v)); }},
+    {"swipe", {0.0, 1.0}, {-0.1, 1.1, kNoNumberAtAll}, [](SurfaceLook& s, double v) { s.swipe = v; }},
     {"inner_sphere_srgb", {0.0, 1.0}, {-0.1, 1.1, kNoNumberAtAll}, [](SurfaceLook& s, double v) {
        s.inner_sphere_srgb = glm::vec3(float(v));
      }}};
@@ -200,6 +201,10 @@ TEST_F(Ranges, OfImageLayers) {
       {"max_level", {0, kMaxTileLevel}, {-1, kMaxTileLevel + 1}, [](ImageLook& l, double v) { l.max_level = int(v); }},
       {"daylight", {0, 2}, {-1, 3}, [](ImageLook& l, double v) { l.daylight = Daylight(int(v)); }},
       {"alpha", {0, 1}, {-1, 2}, [](ImageLook& l, double v) { l.alpha = AlphaFrom(int(v)); }},
+      {"swipe", {0, 2}, {-1, 3}, [](ImageLook& l, double v) { l.swipe = SwipeSide(int(v)); }},
+      {"brightness", {-1.0, 1.0}, {-1.1, 1.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.brightness = v; }},
+      {"contrast", {0.0, 4.0}, {-0.1, 4.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.contrast = v; }},
+      {"gamma", {0.1, 10.0}, {0.0, 10.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.gamma = v; }},
       {"height_m", {0.0, 1e6}, {-1.0, 1.1e6, kNoNumberAtAll}, [](ImageLook& l, double v) { l.height_m = v; }}};
   expect_ranges<ImageLook>({}, looks, "Globe::set_look: ", [&](const ImageLook& look) {
     return planet->set_look(planet->imagery().front(), look);

@@ -29,7 +29,8 @@ SceneOptions full_scene(const ScratchFolder& folder) {
   scene.base.numbers = {.colormap = "diverging:0.5",
                         .stretch = {{.kind = StretchRule::Kind::range, .low = -0.1, .high = 1.0 / 3.0}},
                         .nodata = -32768.0,
-                        .band = 2};
+                        .band = 2,
+                        .lit = true};
   scene.base_look = {.shown = false, .opacity = 0.25};
   scene.layers = {{.source = {.address = "https://example.org/{z}/{x}/{y}.png",
                               .remote = {.layer = "a",
@@ -39,8 +40,11 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                                          .root_span_deg = 288.0,
                                          .tile_px = 512,
                                          .max_level = 7}},
-                   .look = {.opacity = 0.1, .daylight = Daylight::night}},
-                  {.source = {}, .look = {.alpha = AlphaFrom::brightness, .height_m = 8000.0}}};
+                   .look = {.opacity = 0.1, .daylight = Daylight::night, .swipe = SwipeSide::before}},
+                  {.source = {},
+                   .look = {.alpha = AlphaFrom::brightness,
+                            .height_m = 8000.0,
+                            .tone = {.brightness = 0.1, .contrast = 1.5, .gamma = 0.8}}}};
   scene.layers.front().source.place.west_deg = {};
   scene.elevation = (folder / "heights.tif").string();
   scene.elevation_shown = false;
@@ -67,7 +71,8 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                    .inner_sphere_srgb = glm::vec3(56.0F, 71.0F, 97.0F) / 255.0F,
                    .hillshade = true,
                    .sharpness = Sharpness::bilinear,
-                   .glint = false};
+                   .glint = false,
+                   .swipe = 0.25};
   scene.stereo = {.mode = Stereo::anaglyph, .eye_separation_m = 123.5};
   scene.unlit = true;
   scene.texturing = Texturing::exact;
@@ -104,6 +109,7 @@ TEST(ProjectFile, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(read.base.numbers, scene.base.numbers);
   EXPECT_EQ(read.base.place, scene.base.place);
   EXPECT_EQ(read.base_look, scene.base_look);
+  EXPECT_EQ(read.layers[0].look, scene.layers[0].look);
   EXPECT_EQ(read.layers[1].look, scene.layers[1].look);
   EXPECT_EQ(read.object_layers[1].model_place->height_m, 12.5);
   EXPECT_EQ(read.object_layers[0].style_over, scene.object_layers[0].style_over);

@@ -291,6 +291,21 @@ class Globes(ModuleTest):
         globe.show(layer)
         globe.set_opacity(layer, 0)
         self.assertTrue((globe.render() == base).all())
+        globe.set_opacity(layer, 1)
+        over, middle = globe.render(), SIZE[0] // 2
+        globe.set_swipe(0.5, before=layer)
+        both = globe.render()
+        # The antialiased limb takes colours from beside the line.
+        self.assertTrue((both[:, :middle - 4] == over[:, :middle - 4]).all())
+        self.assertTrue((both[:, middle + 4:] == base[:, middle + 4:]).all())
+        globe.set_swipe(None)
+        self.assertTrue((globe.render() == over).all())
+        globe.set_tone(layer, contrast=0)
+        self.assertLessEqual(abs(int(globe.render()[SIZE[1] // 2, middle, 0]) - 128), 1)
+        for wrong in (lambda: globe.set_swipe(2), lambda: globe.set_swipe(0.5, before=77),
+                      lambda: globe.set_tone(layer, gamma=0)):
+            with self.assertRaises((ValueError, terrella.Error)):
+                wrong()
         globe.remove(layer)
         self.assertEqual(len(globe.imagery), 1)
         with self.assertRaises(terrella.Error):

@@ -7,6 +7,7 @@ import time
 import unittest
 from pathlib import Path
 
+import pictures
 from real_window import SIZE, WindowTest, differing, wait_until
 
 PAGE = Path(os.environ["TERRELLA_SOURCE"]) / "apps/README.md"
@@ -37,7 +38,9 @@ class Walk(WindowTest):
     def setUp(self):
         super().setUp()
         (self.folder / "object.json").write_text(json.dumps(OBJECT), encoding="ascii")
-        self.viewer = self.start("--camera", "20,10,12000000", "--objects", "object.json")
+        (self.folder / "part.png").write_bytes(pictures.png(64, 64))
+        (self.folder / "part.pgw").write_text("0.3125\n0\n0\n-0.3125\n0.15\n29.85\n", encoding="ascii")
+        self.viewer = self.start("--camera", "20,10,12000000", "--objects", "object.json", "--overlay", "part.png")
         self.menu_rows = [what for what, _, mouse in table()
                           if mouse.startswith("menu") and what != "save the view as a bookmark"]
 
@@ -202,6 +205,7 @@ class Walk(WindowTest):
             "graticule": "g", "map: coastlines, borders and names": "c", "view settings": "p",
             "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
+            "swipe: compare layers at a line": "v",
             "measure: start, end": "m", "draw: place marks, lines, areas": "d",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}
@@ -245,6 +249,8 @@ class Walk(WindowTest):
                                          self.after_measuring),
             "measure: keep the result as a drawing": (self.shown, lambda: key("ctrl+d"), lambda: row_button(3),
                                                       self.measured, self.close),
+            "measure: profile of heights and numbers": (self.shown, lambda: key("ctrl+p"), lambda: row_button(5),
+                                                        self.measured, lambda: key("ctrl+p", "m")),
             "measure, draw: save as GeoJSON or KML": (
                 lambda act: self.filed("terrella-*.geojson", act), lambda: key("ctrl+s"), lambda: row_button(2),
                 self.measured, self.after_measuring),

@@ -93,6 +93,8 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
   command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
       ->check(any_number())
       ->type_name("VALUE");
+  command.add_flag("--lit-numbers", options.lit,
+                   "Let Sun, relief and air change the colours of numbers too. Otherwise they are those of the legend");
 }
 
 }  // namespace terrella

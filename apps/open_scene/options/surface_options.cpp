@@ -134,6 +134,12 @@ void add_layer_options(CLI::App& command, SceneOptions& options) {
       ->check(number_in(0.0, 1.0e6))
       ->type_name("METRES")
       ->capture_default_str();
+  command
+      .add_option("--swipe", options.surface.swipe,
+                  "Compare layers at a line, this fraction of the picture's width from the left: the topmost image "
+                  "layer shows to its left, the next one to its right, and the lowest one under both")
+      ->check(number_in(0.0, 1.0))
+      ->type_name("0...1");
 }
 
 }  // namespace terrella

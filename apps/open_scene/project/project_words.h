@@ -36,6 +36,7 @@ inline constexpr std::array kSettingNames = {"body",
                                              "hillshade",
                                              "magnify",
                                              "glint",
+                                             "swipe",
                                              "unlit",
                                              "texturing",
                                              "paper-a",
@@ -44,13 +45,14 @@ inline constexpr std::array kSettingNames = {"body",
                                              "detail",
                                              "depth"};
 /// Options of TILESET that an image layer may set.
-inline constexpr std::array kSourceNames = {"projection", "latitude",   "crs",       "bounds",    "west",     "band",
-                                            "bands",      "stretch",    "nodata",    "colormap",  "layer",    "style",
-                                            "matrix-set", "layer-time", "root-span", "tile-size", "max-level"};
+inline constexpr std::array kSourceNames = {
+    "projection", "latitude",    "crs",   "bounds", "west",       "band",       "bands",     "stretch",   "nodata",
+    "colormap",   "lit-numbers", "layer", "style",  "matrix-set", "layer-time", "root-span", "tile-size", "max-level"};
 
 // Fields of a layer.
 inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "shown", *kOpacity = "opacity",
-                            *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height",
+                            *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height", *kSwipe = "swipe-side",
+                            *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
                             *kEncoding = "elevation-encoding", *kStyle = "object-style", *kStyleOver = "classes",
                             *kPlace = "place";
 // Kinds of a layer.
@@ -62,6 +64,9 @@ inline constexpr std::array kEncodings = {"terrain-rgb", "terrarium"};
 }
 [[nodiscard]] inline OptionWords<AlphaFrom> alpha_words() {
   return {{"own", AlphaFrom::own}, {"brightness", AlphaFrom::brightness}};
+}
+[[nodiscard]] inline OptionWords<SwipeSide> swipe_words() {
+  return {{"both", SwipeSide::both}, {"before", SwipeSide::before}, {"behind", SwipeSide::behind}};
 }
 
 /// True if a value of --colormap names a map of the engine's; else it names a file.

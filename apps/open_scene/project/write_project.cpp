@@ -71,6 +71,7 @@ void put_surface(OrderedJson& json, const SurfaceLook& surface) {
   put(json, "hillshade", surface.hillshade, standard.hillshade);
   put_word(json, "magnify", surface.sharpness, standard.sharpness, sharpness_words());
   if (!surface.glint) json["glint"] = "off";
+  if (surface.swipe) json["swipe"] = *surface.swipe;
 }
 
 void put_drawing(OrderedJson& json, const SceneOptions& scene) {
@@ -113,6 +114,7 @@ void put_numbers(OrderedJson& json, const NumberOptions& numbers, const fs::path
     json["bands"] = fmt::format("{},{},{}", (*numbers.bands)[0], (*numbers.bands)[1], (*numbers.bands)[2]);
   for (const StretchRule& rule : numbers.stretch) json["stretch"].push_back(stretch_text(rule));
   if (numbers.nodata) json["nodata"] = *numbers.nodata;
+  put(json, "lit-numbers", numbers.lit, false);
   if (numbers.colormap.empty()) return;
   json["colormap"] = has_named_map(numbers.colormap) ? numbers.colormap : seen_from(numbers.colormap, folder);
 }
@@ -150,6 +152,11 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
   put_word(json, kDaylight, look.daylight, Daylight::both, daylight_words());
   put_word(json, kAlpha, look.alpha, AlphaFrom::own, alpha_words());
   put(json, kHeight, look.height_m, 0.0);
+  const ImageTone plain;
+  put(json, kBrightness, look.tone.brightness, plain.brightness);
+  put(json, kContrast, look.tone.contrast, plain.contrast);
+  put(json, kGamma, look.tone.gamma, plain.gamma);
+  put_word(json, kSwipe, look.swipe, SwipeSide::both, swipe_words());
   return json;
 }
 

@@ -53,6 +53,24 @@ void draw_look(LayerRow& row) {
   if (row.finest_level > 0) draw_levels(row);
 }
 
+/// Side of a swipe, and tone, which a click opens.
+void draw_comparison(LayerRow& row) {
+  const bool open = ImGui::TreeNode(row.numbers ? "Swipe" : "Swipe, tone");
+  tip("Side of the swipe's line (V); brightness, contrast and gamma.");
+  if (!open) return;
+  choose("Side", row.look.swipe, std::array{"both", "left", "right"});
+  tip("Shows the layer only to the left or right of the swipe's line (V).");
+  if (!row.numbers) {
+    ImageTone& tone = row.look.tone;
+    slide("Brightness", tone.brightness, -1.0, 1.0, "%.2f");
+    slide("Contrast", tone.contrast, 0.0, 4.0, "%.2f");
+    slide("Gamma", tone.gamma, 0.1, 10.0, "%.2f");
+    tip("More than 1 brightens dark parts.");
+    if (ImGui::Button("Reset tone") || entered()) tone = {};
+  }
+  ImGui::TreePop();
+}
+
 /// Draws the facts of the raster itself, instead of those of the tiles' grid.
 void draw_facts(LayerRow& row) {
   if (!row.read_facts) return;
@@ -104,6 +122,7 @@ LayerAsk draw_row(LayerRow& row) {
   if (row.style) draw_style(*row.style);
   draw_attribution(row);
   const LayerAsk ask = draw_buttons(row);
+  if (row.kind == LayerKind::imagery) draw_comparison(row);
   draw_facts(row);
   ImGui::TreePop();
   return ask;

@@ -138,6 +138,8 @@ void draw_numbers(NumberFacts& facts, NumberLook& look) {
   }
   draw_field("First value", look, false);
   draw_field("Last value", look, true);
+  ImGui::Checkbox("Lit", &look.lit);
+  tip("Lets Sun, relief and air change the colours. Otherwise they are those of the legend.");
   for (const std::string& line : facts.lines) write_wrapped(line, true);
 }
 

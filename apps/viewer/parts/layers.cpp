@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/open_scene/scene_objects.h"
+#include "apps/open_scene/swipe_sides.h"
 #include "apps/process/console.h"
 #include "apps/process/option_names.h"
 #include "apps/viewer/input.h"
@@ -27,6 +28,7 @@ SourceOptions described(const LayerRow& row) {
   SourceOptions source = row.source;
   if (!row.numbers || !row.look.numbers) return source;
   source.numbers.colormap = row.numbers->colormap;
+  source.numbers.lit = row.look.numbers->lit;
   source.numbers.stretch = {
       {.kind = StretchRule::Kind::range, .low = row.look.numbers->low, .high = row.look.numbers->high}};
   return source;
@@ -125,12 +127,37 @@ void Layers::describe(SceneOptions& scene) const {
       scene.object_layers.push_back(std::move(objects));
     }
   }
+  if (images.size() < 2) scene.surface.swipe.reset();  // there is nothing to compare
   set_images(scene, std::move(images));
 }
 
-std::string Layers::value_at(const Geodetic& place) {
+bool Layers::choose_swipe_sides() {
+  std::vector<ImageLook> looks;
+  for (const LayerRow& row : rows_) {
+    if (row.kind == LayerKind::imagery) looks.push_back(row.look);
+  }
+  if (!terrella::choose_swipe_sides(looks)) return false;
+  auto look = looks.begin();
+  for (LayerRow& row : rows_) {
+    if (row.kind == LayerKind::imagery) take_look(row, *look++);
+  }
+  return true;
+}
+
+std::optional<ProfileNumbers> Layers::shown_numbers() const {
   const auto row = std::find_if(rows_.rbegin(), rows_.rend(),
                                 [](const LayerRow& layer) { return layer.numbers && layer.look.shown; });
+  if (row == rows_.rend()) return {};
+  return ProfileNumbers{
+      .layer = row->id, .name = legend_title(row->name, *row->numbers), .unit = one_line(row->numbers->unit)};
+}
+
+std::string Layers::value_at(const Geodetic& place, double x_px) {
+  const auto& line = context_.globe.options().surface.swipe;
+  const int width_px = context_.window.framebuffer().width_px;
+  const auto row = std::find_if(rows_.rbegin(), rows_.rend(), [&](const LayerRow& layer) {
+    return layer.numbers && layer.look.shown && shows_at(layer.look.swipe, line, x_px, width_px);
+  });
   if (row == rows_.rend()) return {};
   value_.ask(context_.globe, row->id, place);
   return value_.text(place, row->numbers->unit);

@@ -7,6 +7,7 @@
 #include "apps/viewer/panels/layer_panel.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/parts/part.h"
+#include "apps/viewer/profile/profile_samples.h"
 #include "apps/viewer/tools/dropped_files.h"
 #include "apps/viewer/tools/value_query.h"
 
@@ -39,12 +40,18 @@ class Layers : public Panel {
   /// Draws the legend of the shown layers above the `foot` units at the lower edge. A high window shows the
   /// legend before the panels, which leave it room; a low one shows it after them, where they leave room.
   void draw_legend(float foot, bool before_panels) const;
+  /// Gives the shown image layers their sides of a swipe (choose_swipe_sides() of apps/open_scene). False if there are
+  /// fewer than two.
+  [[nodiscard]] bool choose_swipe_sides();
   /// Writes the layers into a scene, as those of a project.
   void describe(SceneOptions& scene) const;
   /// Name of a layer of objects; nullopt if the layer is hidden or has no row.
   [[nodiscard]] std::optional<std::string> shown_objects(LayerId layer) const;
-  /// The value that the highest shown layer of numbers stores at a place; empty while it is not known.
-  [[nodiscard]] std::string value_at(const Geodetic& place);
+  /// The highest shown layer of numbers.
+  [[nodiscard]] std::optional<ProfileNumbers> shown_numbers() const;
+  /// The value that the highest layer of numbers that shows at a place stores there; empty while it is not known.
+  /// `x_px`: the place in the picture.
+  [[nodiscard]] std::string value_at(const Geodetic& place, double x_px);
 
  private:
   void draw_open(float foot) override;

@@ -78,6 +78,8 @@ void Measure::draw_row(const std::string& text, float foot) {
       return save();
     case MeasureAsk::keep:
       return keep();
+    case MeasureAsk::profile:
+      return profile_();
     case MeasureAsk::end:
       return toggle();
   }

@@ -16,13 +16,14 @@ namespace terrella {
 /// thread: main
 class Measure : public Part {
  public:
-  /// `keep` makes a drawing of the measured places.
-  Measure(const ViewerContext& context, std::function<void(std::vector<Geodetic>)> keep)
-      : Part(context), keep_(std::move(keep)) {}
+  /// `keep` makes a drawing of the measured places. `profile` opens or closes their profile.
+  Measure(const ViewerContext& context, std::function<void(std::vector<Geodetic>)> keep, std::function<void()> profile)
+      : Part(context), keep_(std::move(keep)), profile_(std::move(profile)) {}
 
   void toggle();                      ///< starts, or ends and removes the measurement
   void start_from(glm::dvec2 at_px);  ///< starts anew with the place under a pixel of the framebuffer
   [[nodiscard]] bool is_on() const { return on_; }
+  [[nodiscard]] const std::vector<Geodetic>& places() const { return path_.places(); }  ///< empty unless on
   /// Adds the place under a pixel of the framebuffer. No effect unless on.
   void add(glm::dvec2 at_px);
   void take_back();   ///< removes the last place
@@ -41,6 +42,7 @@ class Measure : public Part {
   bool on_ = false;
   PlacePath path_{context_};
   std::function<void(std::vector<Geodetic>)> keep_;
+  std::function<void()> profile_;
 };
 
 }  // namespace terrella

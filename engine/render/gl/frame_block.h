@@ -15,6 +15,7 @@ struct FrameBlock {
   glm::vec4 texels;
   glm::vec4 paper;
   glm::vec4 layer_look;
+  glm::vec4 layer_tone;
   glm::mat4 horizon_from_ecef;
   glm::vec4 relief;
   glm::vec4 surface_look;
@@ -23,6 +24,6 @@ struct FrameBlock {
   glm::vec4 limb_at_px;
   glm::vec4 limb_bend;
 };
-static_assert(sizeof(FrameBlock) == 64 + 13 * 16 + 64);
+static_assert(sizeof(FrameBlock) == 64 + 14 * 16 + 64);
 
 }  // namespace terrella

@@ -11,7 +11,7 @@ namespace terrella {
 namespace {
 
 constexpr GLuint kGroundBinding = 5, kGroundAttribute = 15;
-constexpr GLint kPointsPlace = 12;              // patch.vert
+constexpr GLint kPointsPlace = 20;              // patch.vert
 constexpr GLuint kFillUnit = 0, kLineUnit = 2;  // patch_ground.glsl
 constexpr std::uint32_t kAtLimb = 8;
 

@@ -104,9 +104,11 @@ std::string stack_main(const StackProgram& program) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(program.count); ++k) {
     const std::string own = std::to_string(k);
     text += "  main_" + own + "();\n  sum = ";
-    text += k == 0 && program.base ? "ground(found_0);\n"
-                                   : "over(sum, found_" + own + ", stack_look[" + own + "], " +
-                                         (program.slots[k].special ? "true" : "false") + ");\n";
+    const std::string look = "stack_look[" + own + "], ", numbers = program.slots[k].numbers ? "true" : "false";
+    text += k == 0 && program.base
+                ? "ground(found_0, " + look + numbers + ");\n"
+                : "over(sum, found_" + own + ", stack_opacity[" + own + "], " + look + "stack_tone[" + own + "], " +
+                      (program.slots[k].special ? "true, " : "false, ") + numbers + ");\n";
   }
   if (program.ground != 0) text += "  sum = under_objects(sum);\n";
   return text + "  color_srgb = sum;\n  WRITE_DEPTH(1.0);\n}\n";

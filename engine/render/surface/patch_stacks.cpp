@@ -19,7 +19,8 @@ struct StackWindow {
 };
 using StackWindows = std::array<StackWindow, PatchStacks::kMost>;
 
-constexpr GLint kTexelsPlace = 0, kLookPlace = 4, kNumbersPlace = 8;  // patch_stack.glsl
+constexpr GLint kTexelsPlace = 0, kLookPlace = 4, kNumbersPlace = 8, kOpacityPlace = 12,
+                kTonePlace = 16;  // patch_stack.glsl
 constexpr GLuint kWindowsBinding = 4;
 
 void make_buffers(PatchStacks& stacks) {
@@ -177,11 +178,14 @@ gl::VertexArray PatchPass::make_stack_array() const {
 
 void PatchPass::bind_stack(const PatchStacks::Group& group, std::span<const StackLayer> layers, GLuint program) const {
   const int count = StackProgram::of_key(group.program).count;
-  std::array<glm::vec4, PatchStacks::kMost> texels{}, look{}, numbers{};
+  std::array<glm::vec4, PatchStacks::kMost> texels{}, look{}, numbers{}, tone{};
+  std::array<float, PatchStacks::kMost> opacity{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const StackLayer& layer = layers[group.layers[k]];
     texels[k] = layer.texels;
     look[k] = layer.look;
+    tone[k] = layer.tone;
+    opacity[k] = layer.opacity;
     glBindTextureUnit(PatchStacks::kTileUnits[k], layer.tiles->texture());
     glBindSampler(PatchStacks::kTileUnits[k], precise_.name());
     if (layer.numbers == nullptr) continue;
@@ -191,6 +195,8 @@ void PatchPass::bind_stack(const PatchStacks::Group& group, std::span<const Stac
   glProgramUniform4fv(program, kTexelsPlace, count, glm::value_ptr(texels[0]));
   glProgramUniform4fv(program, kLookPlace, count, glm::value_ptr(look[0]));
   glProgramUniform4fv(program, kNumbersPlace, count, glm::value_ptr(numbers[0]));
+  glProgramUniform4fv(program, kTonePlace, count, glm::value_ptr(tone[0]));
+  glProgramUniform1fv(program, kOpacityPlace, count, opacity.data());
 }
 
 void PatchPass::draw_stacks(const PatchStacks& stacks, bool first_pass, std::span<const StackLayer> layers,

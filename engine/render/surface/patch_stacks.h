@@ -21,8 +21,9 @@ struct StackLayer {
   const TileTextures* tiles = nullptr;
   const NumberColors* numbers = nullptr;  ///< null: a layer of pictures
   glm::vec4 texels{};                     ///< FrameBlock::texels
-  /// Opacity; 1 shows by day, -1 by night, 0 by both; 1: brightness is alpha; unused.
-  glm::vec4 look{1.0F, 0.0F, 0.0F, 0.0F};
+  float opacity = 1.0F;
+  glm::vec4 look{0.0F};  ///< FrameBlock::layer_look
+  glm::vec4 tone{0.0F};  ///< FrameBlock::layer_tone
   bool special = false;  ///< LayerFrame::special
   bool hides = false;    ///< hides all layers under it wherever it has tiles
 };
