@@ -48,6 +48,11 @@ std::optional<Span> span_of(const std::vector<ProfileSample>& samples, std::opti
 
 }  // namespace
 
+std::string Profile::job() const {
+  if (panel() == nullptr || open_.empty()) return {};
+  return fmt::format("Profile: {} of {} values", answered_, samples_.size());
+}
+
 bool Profile::changed() const {
   return panel() != nullptr && !open_.empty() &&
          open_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -106,8 +111,6 @@ void Profile::draw_contents() {
   }
   if (heights) draw_plot("Height", "m", &ProfileSample::height_m);
   if (shown_numbers_) draw_plot(shown_numbers_->name.c_str(), shown_numbers_->unit, &ProfileSample::value);
-  const std::size_t left = shown_numbers_ ? samples_.size() - answered_ : 0;
-  if (left > 0) write_wrapped(fmt::format("{} values to come", left), true);
   if (ImGui::Button("Save as CSV") || entered()) save();
   tip("Writes distance, place, height and value of each sample into the folder where the program was started.");
 }

@@ -23,6 +23,7 @@ class Profile : public Panel {
           std::function<std::optional<ProfileNumbers>()> numbers)
       : Panel(context, "Profile"), path_(std::move(path)), numbers_(std::move(numbers)) {}
 
+  [[nodiscard]] std::string job() const override;
   [[nodiscard]] bool changed() const override;
 
  private:
