@@ -144,10 +144,16 @@ bool Layers::choose_swipe_sides() {
   return true;
 }
 
+const LayerRow* Layers::highest_numbers(const std::function<bool(const LayerRow&)>& is_there) const {
+  const auto row = std::find_if(rows_.rbegin(), rows_.rend(), [&is_there](const LayerRow& layer) {
+    return layer.numbers && layer.look.shown && is_there(layer);
+  });
+  return row == rows_.rend() ? nullptr : &*row;
+}
+
 std::optional<ProfileNumbers> Layers::shown_numbers() const {
-  const auto row = std::find_if(rows_.rbegin(), rows_.rend(),
-                                [](const LayerRow& layer) { return layer.numbers && layer.look.shown; });
-  if (row == rows_.rend()) return {};
+  const LayerRow* row = highest_numbers([](const LayerRow&) { return true; });
+  if (row == nullptr) return {};
   return ProfileNumbers{
       .layer = row->id, .name = legend_title(row->name, *row->numbers), .unit = one_line(row->numbers->unit)};
 }
@@ -155,10 +161,9 @@ std::optional<ProfileNumbers> Layers::shown_numbers() const {
 std::string Layers::value_at(const Geodetic& place, double x_px) {
   const auto& line = context_.globe.options().surface.swipe;
   const int width_px = context_.window.framebuffer().width_px;
-  const auto row = std::find_if(rows_.rbegin(), rows_.rend(), [&](const LayerRow& layer) {
-    return layer.numbers && layer.look.shown && shows_at(layer.look.swipe, line, x_px, width_px);
-  });
-  if (row == rows_.rend()) return {};
+  const LayerRow* row =
+      highest_numbers([&](const LayerRow& layer) { return shows_at(layer.look.swipe, line, x_px, width_px); });
+  if (row == nullptr) return {};
   value_.ask(context_.globe, row->id, place);
   return value_.text(place, row->numbers->unit);
 }

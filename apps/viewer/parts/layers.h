@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,6 +56,8 @@ class Layers : public Panel {
 
  private:
   void draw_open(float foot) override;
+  /// The highest shown layer of numbers that a condition holds for; null: none.
+  [[nodiscard]] const LayerRow* highest_numbers(const std::function<bool(const LayerRow&)>& is_there) const;
   void take_look(LayerRow& row, const ImageLook& look);
   void take_style(LayerRow& row);
   Status use_heights(const std::optional<ElevationSource>& heights);

@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "apps/process/write_file.h"
-#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/panels/readout.h"
 #include "apps/viewer/tools/screenshot.h"
@@ -24,11 +23,6 @@ constexpr std::size_t kAskedAtOnce = 4;                     // each answer is a 
 constexpr float kProfileWidth = 34.0F, kPlotHeight = 6.0F;  // in text heights
 const ImU32 kPlotGround = IM_COL32(8, 12, 18, 200), kPlotLine = IM_COL32(120, 200, 255, 255),
             kPlotHand = IM_COL32(245, 200, 66, 255);
-
-bool same(const std::vector<Geodetic>& a, const std::vector<Geodetic>& b) {
-  return std::ranges::equal(a, b,
-                            [](const Geodetic& x, const Geodetic& y) { return x.lat == y.lat && x.lon == y.lon; });
-}
 
 struct Span {
   double low, high;
@@ -63,7 +57,7 @@ void Profile::follow() {
   std::optional<ProfileNumbers> numbers = numbers_();
   const LayerId layer = numbers ? numbers->layer : LayerId::none;
   const LayerId shown = shown_numbers_ ? shown_numbers_->layer : LayerId::none;
-  if (same(path, shown_path_) && layer == shown) return;
+  if (path == shown_path_ && layer == shown) return;
   shown_path_ = std::move(path);
   shown_numbers_ = std::move(numbers);
   samples_ = profile_samples(context_.globe.options().body.ellipsoid, shown_path_, kSamples);
