@@ -14,7 +14,7 @@ from projects import BUILD, CMAKE, COMPILER, QUAKES, SOURCE, assert_picture, cut
 KEPT = BUILD / "package_tests"
 # The other compiler, where there is one, and what is fast to compile; the language's version is the compiler's default.
 FAST = [f"-DCMAKE_CXX_COMPILER={shutil.which('clang++') or COMPILER}", "-DCMAKE_CXX_FLAGS=-O0 -Wall -Wextra -Werror",
-        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
+        "-DCMAKE_UNITY_BUILD=OFF", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
 
 SUBDIRECTORY_CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(Application LANGUAGES CXX)
@@ -91,7 +91,7 @@ class SourceTest(unittest.TestCase):
         """The libraries come alone, change none of the application's settings, and bring their headers and the language."""
         folder = write_project(self.scratch / "with-subdirectory", 0)
         (folder / "CMakeLists.txt").write_text(SUBDIRECTORY_CMAKE.format(source=SOURCE))
-        configure(folder, "-DCMAKE_UNITY_BUILD=OFF")
+        configure(folder)
         run(CMAKE, "--build", folder / "build", "--target", "CMakeFiles/application.dir/main.cpp.o")
         compiled = [command["file"] for command in json.loads((folder / "build/compile_commands.json").read_text())]
         for part in ("apps", "tests"):
