@@ -157,6 +157,7 @@ Result<ImageryLayer> layer_of(std::shared_ptr<TileSource> tiles, const NumberOpt
   if (!look) return look.error();
   layer.look.numbers = *std::move(look);
   layer.look.numbers->lit = options.lit;
+  layer.look.numbers->contour_step = options.contours;
   layer.numbers = std::move(facts);
   return layer;
 }

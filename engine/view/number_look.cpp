@@ -27,6 +27,9 @@ Status check_look(const NumberLook& look) {
     return Error{"a stretch needs two finite values with a finite difference, the lower one first"};
   }
   if (look.center && !std::isfinite(*look.center)) return Error{"the centre of a stretch must be finite"};
+  if (!std::isfinite(look.contour_step) || look.contour_step < 0.0) {
+    return Error{"the step of contour lines must be finite, and 0 or more"};
+  }
   const auto& stops = look.colors.stops;
   if (stops.empty()) return Error{"a colour map needs at least one colour"};
   const auto finite = [](const ColorStop& stop) { return std::isfinite(stop.at); };

@@ -21,14 +21,17 @@ struct NumberLook {
   /// The Sun, the relief and the air change the colours, as those of a picture. False: each pixel has the colour that
   /// the map gives its value, by night and at the limb too.
   bool lit = false;
+  /// Contour lines at the multiples of this step, one pixel wide, every fifth two; 0: none. As low and high: in the
+  /// unit of the values. Lines less than four pixels apart fade.
+  double contour_step = 0.0;
   bool operator==(const NumberLook&) const = default;
 };
 
 /// Number of colours in a look's texture: texel k is the colour of low + (high - low) · (k + 0.5) / kBakedColors.
 inline constexpr int kBakedColors = 1024;
 
-/// Fails if low and high are not finite with low < high, or if the map has no stops or stops out of order. The error
-/// says what is wrong. thread: any
+/// Fails if low and high are not finite with low < high, if the map has no stops or stops out of order, or if the step
+/// of contour lines is below 0 or not finite. The error says what is wrong. thread: any
 [[nodiscard]] Status check_look(const NumberLook& look);
 /// The colour of a value, not rounded to a texel of bake(). `look` has passed check_look(). thread: any
 [[nodiscard]] Rgba8 color_of(const NumberLook& look, double value);

@@ -4,6 +4,7 @@ layout(location = 4) uniform vec4 stack_look[STACK];     // as layer_look of the
 layout(location = 8) uniform vec4 stack_numbers[STACK];  // as number_look
 layout(location = 12) uniform float stack_opacity[STACK];
 layout(location = 16) uniform vec4 stack_tone[STACK];    // as layer_tone  // 20: points_a_side of patch.vert
+layout(location = 24) uniform vec4 stack_lines[STACK];   // as number_lines
 
 // Over the layers below. Each layer has the light and the air that it would have alone.
 vec4 over(vec4 below, vec4 imagery_srgb, float opacity, vec4 look, vec4 tone, bool special, bool numbers) {

@@ -11,6 +11,8 @@ layout(binding = 3) uniform sampler2DArray tiles_precise;
 layout(binding = 4) uniform sampler2D number_colors;        // premultiplied; 0 to 1 is the stretch
 // Texel without data; how far other texels are from it at least; position in the stretch = texel * z + w.
 layout(location = 0) uniform vec4 number_look;
+// Contour lines: steps from 0 = texel * x + y; half the width of a line, pixels, or 0 without lines.
+layout(location = 24) uniform vec4 number_lines;
 #endif
 
 ivec2 window_size() { return ivec2(window.y & 0xFFFFu, window.y >> 16); }
@@ -68,10 +70,23 @@ vec2 mip_tap(Cell cell, vec2 p, float level) {
   return mix(level_tap(at, finer), level_tap(at, min(finer + 1, kSlotMips - 1)), fract(level));
 }
 
+// Adds contour lines, dark on light colours and light on dark ones; every fifth has twice the width. Lines less than four
+// pixels apart fade, and a flat place at the value of a line has none: its differences are those of rounding.
+vec4 with_lines(vec4 color, float steps) {
+  float a_pixel = length(vec2(dFdx(steps), dFdy(steps))), line = round(steps);
+  float half_width_px = number_lines.z * (mod(line, 5.0) == 0.0 ? 2.0 : 1.0);
+  float cover = clamp(half_width_px + 0.5 - abs(steps - line) / max(a_pixel, 1e-6), 0.0, 1.0);
+  cover *= step(1e-4, a_pixel) * (1.0 - smoothstep(0.25, 0.5, a_pixel));
+  vec4 ink = vec4(vec3(1.0 - step(0.4, dot(color.rgb, vec3(0.299, 0.587, 0.114)))), 1.0);
+  return mix(color, ink, 0.75 * cover);
+}
+
 // Colour of a mean; clear if less than half of the weight has data.
 Imagery seen(vec2 mean) {
-  float position = mean.x / max(mean.y, 1e-6) * number_look.z + number_look.w;
-  vec4 color = textureLod(number_colors, vec2(position, 0.5), 0.0) * step(0.5, mean.y);
+  float number = mean.x / max(mean.y, 1e-6);
+  vec4 color = textureLod(number_colors, vec2(number * number_look.z + number_look.w, 0.5), 0.0);
+  if (number_lines.z > 0.0) color = with_lines(color, number * number_lines.x + number_lines.y);
+  color *= step(0.5, mean.y);
 #if defined(UPPER_LAYER)
   return color;
 #else

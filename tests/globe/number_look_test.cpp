@@ -73,6 +73,8 @@ TEST(NumberLooks, ThatCannotBeDrawnAreRefused) {
   EXPECT_FALSE(check_look({.low = 2.0, .high = 1.0}));
   EXPECT_FALSE(check_look({.low = kNowhere, .high = 1.0}));
   EXPECT_FALSE(check_look({.center = kNowhere}));
+  EXPECT_FALSE(check_look({.contour_step = kNowhere}));
+  EXPECT_FALSE(check_look({.contour_step = -1.0}));
   EXPECT_FALSE(check_look({.colors = {}}));
   EXPECT_FALSE(check_look({.colors = {.stops = {{1.0, {}}, {0.0, {}}}}}));
 }

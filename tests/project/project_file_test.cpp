@@ -30,7 +30,8 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                         .stretch = {{.kind = StretchRule::Kind::range, .low = -0.1, .high = 1.0 / 3.0}},
                         .nodata = -32768.0,
                         .band = 2,
-                        .lit = true};
+                        .lit = true,
+                        .contours = 12.5};
   scene.base_look = {.shown = false, .opacity = 0.25};
   scene.layers = {{.source = {.address = "https://example.org/{z}/{x}/{y}.png",
                               .remote = {.layer = "a",

@@ -93,6 +93,12 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
   command.add_option("--nodata", options.nodata, "Set the value that means no data in a raster that does not say it")
       ->check(any_number())
       ->type_name("VALUE");
+  command
+      .add_option(
+          "--contours", options.contours,
+          "Draw contour lines at the multiples of this step, one pixel wide, every fifth two (default: 0, none)")
+      ->check(number_in(0.0, 1e30))
+      ->type_name("STEP");
   command.add_flag("--lit-numbers", options.lit,
                    "Let Sun, relief and air change the colours of numbers too. Otherwise they are those of the legend");
 }

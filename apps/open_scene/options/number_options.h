@@ -20,6 +20,7 @@ struct NumberOptions {
   int band = 0;                               ///< counted from 1; 0: the only one
   std::optional<std::array<int, 3>> bands{};  ///< shown as red, green and blue, counted from 1
   bool lit = false;                           ///< NumberLook::lit
+  double contours = 0.0;                      ///< NumberLook::contour_step
   bool heights = false;                       ///< set by --elevation: reads numbers as heights in any case
   bool operator==(const NumberOptions&) const = default;
 
@@ -35,7 +36,7 @@ void add_stretch_options(CLI::App& command, NumberOptions& options);
 /// Adds --colormap, after add_stretch_options(). thread: main
 void add_colormap_option(CLI::App& command, NumberOptions& options);
 
-/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers. --band was the width of paper 1's
+/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers, --contours. --band was the width of paper 1's
 /// pole bands before it was a band of a raster: a fraction goes to `pole_band`, a whole number is a band. thread: main
 void add_number_options(CLI::App& command, NumberOptions& options, double& pole_band);
 

@@ -138,6 +138,12 @@ void draw_numbers(NumberFacts& facts, NumberLook& look) {
   }
   draw_field("First value", look, false);
   draw_field("Last value", look, true);
+  double step = look.contour_step;
+  if (ImGui::InputDouble("Contours every", &step, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) &&
+      std::isfinite(step)) {
+    look.contour_step = std::max(step, 0.0);
+  }
+  tip("Draws contour lines at the multiples of this value. 0 draws none.");
   ImGui::Checkbox("Lit", &look.lit);
   tip("Lets Sun, relief and air change the colours. Otherwise they are those of the legend.");
   for (const std::string& line : facts.lines) write_wrapped(line, true);

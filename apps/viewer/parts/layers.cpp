@@ -29,6 +29,7 @@ SourceOptions described(const LayerRow& row) {
   if (!row.numbers || !row.look.numbers) return source;
   source.numbers.colormap = row.numbers->colormap;
   source.numbers.lit = row.look.numbers->lit;
+  source.numbers.contours = row.look.numbers->contour_step;
   source.numbers.stretch = {
       {.kind = StretchRule::Kind::range, .low = row.look.numbers->low, .high = row.look.numbers->high}};
   return source;

@@ -4,13 +4,31 @@ namespace terrella {
 namespace {
 
 constexpr double kMostCode = 65535.0;
+constexpr float kHalfLine_px = 0.5F;
 
-/// Values of the uniform `number_look`. Shaders see a code as a fraction of kMostCode.
+/// A number of a raster as a line of what shaders see: value = texel · factor + first. Shaders see a code as a fraction
+/// of kMostCode.
+struct ValueOfTexel {
+  double factor, first;
+};
+ValueOfTexel value_of_texel(const NumberInfo& info, const NumberSlots& slots) {
+  if (!slots.codes) return {info.scale, info.offset};
+  return {info.scale * kMostCode / slots.steps, slots.least * info.scale + info.offset};
+}
+
+/// Value of the uniform `number_look`.
 glm::vec4 uniform_of(const NumberInfo& info, const NumberSlots& slots, const NumberLook& look) {
+  const auto [factor, first] = value_of_texel(info, slots);
   const double range = look.high - look.low;
-  if (!slots.codes) return {kNoNumber, 1e37, info.scale / range, (info.offset - look.low) / range};
-  return {slots.none / kMostCode, 0.5 / kMostCode, info.scale * kMostCode / slots.steps / range,
-          (slots.least * info.scale + info.offset - look.low) / range};
+  const double none = slots.codes ? slots.none / kMostCode : kNoNumber, apart = slots.codes ? 0.5 / kMostCode : 1e37;
+  return {none, apart, factor / range, (first - look.low) / range};
+}
+
+/// Value of the uniform `number_lines`.
+glm::vec4 lines_of(const NumberInfo& info, const NumberSlots& slots, const NumberLook& look) {
+  if (look.contour_step == 0.0) return glm::vec4(0.0F);
+  const auto [factor, first] = value_of_texel(info, slots);
+  return {factor / look.contour_step, first / look.contour_step, kHalfLine_px, 0.0F};
 }
 
 }  // namespace
@@ -19,6 +37,7 @@ void NumberColors::set(const NumberLook& look) {
   if (look_ == look) return;
   look_ = look;
   uniform_ = uniform_of(info_, slots_, look);
+  lines_ = lines_of(info_, slots_, look);
   if (!texture_) {
     texture_ = gl::make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(texture_.name(), 1, GL_RGBA8, kBakedColors, 1);

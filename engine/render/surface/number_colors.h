@@ -17,6 +17,7 @@ class NumberColors {
  public:
   static constexpr GLuint kUnit = 4;         ///< the texture unit that the shaders read
   static constexpr GLint kUniformPlace = 0;  ///< location of the uniform `number_look`
+  static constexpr GLint kLinesPlace = 24;   ///< location of the uniform `number_lines`
 
   /// `slots`: how texels store the numbers of `info`.
   NumberColors(const NumberInfo& info, const NumberSlots& slots) : info_(info), slots_(slots) {}
@@ -25,6 +26,7 @@ class NumberColors {
   void set(const NumberLook& look);
   void bind(GLuint unit = kUnit) const;  ///< the texture; after set()
   [[nodiscard]] const glm::vec4& uniform() const { return uniform_; }
+  [[nodiscard]] const glm::vec4& lines() const { return lines_; }  ///< value of the uniform `number_lines`
   [[nodiscard]] const NumberInfo& info() const { return info_; }
 
  private:
@@ -32,7 +34,7 @@ class NumberColors {
   NumberSlots slots_;
   std::optional<NumberLook> look_;
   gl::Texture texture_;
-  glm::vec4 uniform_{0.0F};
+  glm::vec4 uniform_{0.0F}, lines_{0.0F};
 };
 
 }  // namespace terrella

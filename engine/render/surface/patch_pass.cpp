@@ -250,6 +250,7 @@ void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, cons
     assert(program != 0);
     if (numbers) {
       glProgramUniform4fv(program, NumberColors::kUniformPlace, 1, glm::value_ptr(layer.numbers->uniform()));
+      glProgramUniform4fv(program, NumberColors::kLinesPlace, 1, glm::value_ptr(layer.numbers->lines()));
     }
     apply(state.with(program));
     draw_commands(layer.first_command[p], layer.first_command[p + 1], counts);

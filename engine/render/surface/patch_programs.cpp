@@ -29,6 +29,7 @@ constexpr std::string_view kOwnNames[] = {"main",
                                           "cell_at",
                                           "tap",
                                           "known",
+                                          "with_lines",
                                           "bilinear",
                                           "level_tap",
                                           "mip_tap",
@@ -76,6 +77,7 @@ std::string slot_text(const StackProgram& program, std::size_t k, bool bicubic) 
   redefine(text, "tiles_mipmapped", "tiles");
   redefine(text, "texels", "stack_texels" + at);
   redefine(text, "number_look", "stack_numbers" + at);
+  redefine(text, "number_lines", "stack_lines" + at);
   redefine(text, slot.numbers ? "seen" : "precise_tap", slot.numbers ? "seen" + own : "precise_tap" + own);
   if (is_polar(slot.look)) text += "#define AT_POLE\n";
   if (slot.numbers) text += "#define NUMBERS\n";

@@ -178,7 +178,7 @@ gl::VertexArray PatchPass::make_stack_array() const {
 
 void PatchPass::bind_stack(const PatchStacks::Group& group, std::span<const StackLayer> layers, GLuint program) const {
   const int count = StackProgram::of_key(group.program).count;
-  std::array<glm::vec4, PatchStacks::kMost> texels{}, look{}, numbers{}, tone{};
+  std::array<glm::vec4, PatchStacks::kMost> texels{}, look{}, numbers{}, lines{}, tone{};
   std::array<float, PatchStacks::kMost> opacity{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const StackLayer& layer = layers[group.layers[k]];
@@ -190,11 +190,13 @@ void PatchPass::bind_stack(const PatchStacks::Group& group, std::span<const Stac
     glBindSampler(PatchStacks::kTileUnits[k], precise_.name());
     if (layer.numbers == nullptr) continue;
     numbers[k] = layer.numbers->uniform();
+    lines[k] = layer.numbers->lines();
     layer.numbers->bind(PatchStacks::kColorUnits[k]);
   }
   glProgramUniform4fv(program, kTexelsPlace, count, glm::value_ptr(texels[0]));
   glProgramUniform4fv(program, kLookPlace, count, glm::value_ptr(look[0]));
   glProgramUniform4fv(program, kNumbersPlace, count, glm::value_ptr(numbers[0]));
+  glProgramUniform4fv(program, NumberColors::kLinesPlace, count, glm::value_ptr(lines[0]));
   glProgramUniform4fv(program, kTonePlace, count, glm::value_ptr(tone[0]));
   glProgramUniform1fv(program, kOpacityPlace, count, opacity.data());
 }
