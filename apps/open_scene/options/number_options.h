@@ -36,8 +36,9 @@ void add_stretch_options(CLI::App& command, NumberOptions& options);
 /// Adds --colormap, after add_stretch_options(). thread: main
 void add_colormap_option(CLI::App& command, NumberOptions& options);
 
-/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers, --contours. --band was the width of paper 1's
-/// pole bands before it was a band of a raster: a fraction goes to `pole_band`, a whole number is a band. thread: main
+/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers, --contours. --band was the width
+/// of paper 1's pole bands before it was a band of a raster: a fraction goes to `pole_band`, a whole number is a band.
+/// thread: main
 void add_number_options(CLI::App& command, NumberOptions& options, double& pole_band);
 
 /// A band's number, a whole number from 1 on. thread: any
