@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 
@@ -405,13 +405,13 @@ TEST(GeojsonObjects, AreasOverTheAntimeridianAndAPoleAreTaken) {
 // Reading them took the square of their number: minutes for these.
 TEST(GeojsonObjects, ManyGeometriesInOneFeatureAreReadInTimeThatGrowsWithTheirNumber) {
   constexpr std::size_t kGeometries = 400'000;
-  constexpr std::chrono::seconds kHang(60);  // a second or two on an idle machine
+  constexpr double kHang_s = 60.0;  // of the processor's time, so that a busy machine is as good; one or two are taken
   std::string many = kPoint;
   for (std::size_t k = 1; k < kGeometries; ++k) many += "," + kPoint;
   const std::string text = collection(feature(R"({"type":"GeometryCollection","geometries":[)" + many + "]}"));
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   EXPECT_EQ(good(text).scene.points.size(), kGeometries);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, kHang);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, kHang_s);
 }
 
 TEST(GeojsonObjects, DepthsOfAnEarthquakeCatalogueAreKilometresDown) {

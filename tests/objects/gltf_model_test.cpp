@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -146,7 +147,7 @@ TEST(GltfModel, NodesInARingOrWithoutEndAreWalkedOnce) {
 // Reading a chain took the square of its length: two minutes for this one.
 TEST(GltfModel, ALongChainOfNodesIsReadInTimeThatGrowsWithItsLength) {
   constexpr std::size_t kNodes = 600'000;
-  constexpr std::chrono::seconds kHang(60);  // a second or two on an idle machine
+  constexpr double kHang_s = 60.0;  // of the processor's time, so that a busy machine is as good; one or two are taken
   ModelFixture model = unit_box();
   nlohmann::json nodes;
   for (std::size_t k = 1; k < kNodes; ++k) nodes.push_back({{"children", {k}}});
@@ -154,9 +155,9 @@ TEST(GltfModel, ALongChainOfNodesIsReadInTimeThatGrowsWithItsLength) {
   nodes.push_back({{"mesh", 0}});
   model.json["nodes"] = std::move(nodes);
   const std::string bytes = model.bytes();
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const auto file = read_bytes(bytes);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, kHang);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, kHang_s);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_THAT(file->complaints, ElementsAre());
   EXPECT_EQ(file->model->parts.at(0).vertices[7].position_m, glm::vec3(1001.0F, 2.0F, 3.0F)) << "under all of them";
