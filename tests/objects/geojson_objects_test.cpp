@@ -405,7 +405,7 @@ TEST(GeojsonObjects, AreasOverTheAntimeridianAndAPoleAreTaken) {
 // Reading them took the square of their number: minutes for these.
 TEST(GeojsonObjects, ManyGeometriesInOneFeatureAreReadInTimeThatGrowsWithTheirNumber) {
   constexpr std::size_t kGeometries = 400'000;
-  constexpr double kHang_s = 60.0;  // of the processor's time, so that a busy machine is as good; one or two are taken
+  constexpr double kHang_s = 60.0;  // processor time, which a busy machine does not change; a second or two are taken
   std::string many = kPoint;
   for (std::size_t k = 1; k < kGeometries; ++k) many += "," + kPoint;
   const std::string text = collection(feature(R"({"type":"GeometryCollection","geometries":[)" + many + "]}"));

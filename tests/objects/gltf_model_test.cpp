@@ -147,7 +147,7 @@ TEST(GltfModel, NodesInARingOrWithoutEndAreWalkedOnce) {
 // Reading a chain took the square of its length: two minutes for this one.
 TEST(GltfModel, ALongChainOfNodesIsReadInTimeThatGrowsWithItsLength) {
   constexpr std::size_t kNodes = 600'000;
-  constexpr double kHang_s = 60.0;  // of the processor's time, so that a busy machine is as good; one or two are taken
+  constexpr double kHang_s = 60.0;  // processor time, which a busy machine does not change; a second or two are taken
   ModelFixture model = unit_box();
   nlohmann::json nodes;
   for (std::size_t k = 1; k < kNodes; ++k) nodes.push_back({{"children", {k}}});
