@@ -95,6 +95,7 @@ class Lists(Feedback):
         self.press(viewer, "Down", "Down", "Down")
         for _ in range(12):  # the buttons above take another number of rows at another width
             self.press(viewer, "space")
+            viewer.settled()  # on a busy machine a list opens late
             if self.lists(viewer):
                 break
             self.press(viewer, "Down")
