@@ -3,9 +3,9 @@
 import array
 import json
 import math
-import subprocess
 import unittest
 
+from georeferenced import gdal
 from program import BLUE_MARBLE, DONE, FAILED, SOURCE, WRONG_USAGE, ProgramTest
 
 TEMPERATURE = SOURCE / "data/ocean/sea_surface_temperature.tif"
@@ -13,10 +13,6 @@ LOOK = ("-o", "out.png", "--size", "128x128", "--unlit", "--cache", "off")
 # The camera looks straight down, so the place is the middle of the picture.
 PACIFIC, SOUTHERN_OCEAN, SAHARA = "2,-150,300000", "-60,-120,300000", "22,10,300000"
 CODES = {"Byte": "B", "Int16": "h", "UInt16": "H", "Float32": "f", "Float64": "d"}
-
-
-def gdal(*command):
-    return subprocess.run([str(c) for c in command], check=True, capture_output=True, text=True).stdout
 
 
 class NumbersTest(ProgramTest):

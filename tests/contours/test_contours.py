@@ -2,10 +2,10 @@
 
 import json
 import math
-import subprocess
 import unittest
 
 from ellipsoid_camera import Camera, ecef
+from georeferenced import gdal
 from program import SOURCE, WRONG_USAGE, ProgramTest
 
 TEMPERATURE = SOURCE / "data/ocean/sea_surface_temperature.tif"
@@ -15,10 +15,6 @@ FAR = "-5,-130,2500000,0,-90,40"
 # A line is one pixel wide, so that a pixel that it covers by half or more is within half a pixel of its middle; and half
 # a pixel is what the lines may be off.
 OFF_PX = 0.5 + 0.5
-
-
-def gdal(*command):
-    return subprocess.run([str(c) for c in command], check=True, capture_output=True, text=True).stdout
 
 
 def along(line):

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "apps/viewer/panels/panel_items.h"
 
@@ -95,10 +96,10 @@ void draw_map_choice(NumberFacts& facts, NumberLook& look) {
   ImGui::EndCombo();
 }
 
-void draw_field(const char* name, NumberLook& look, bool high_end) {
-  double value = high_end ? look.high : look.low;
-  if (!ImGui::InputDouble(name, &value, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue)) return;
-  if (std::isfinite(value)) look = dragged(look, high_end, value);
+/// A field with a number. Returns the finite number that was entered in this frame.
+std::optional<double> entered(const char* name, double value) {
+  const bool done = ImGui::InputDouble(name, &value, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
+  return done && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 void draw_rules(const NumberStatistics& statistics, NumberLook& look) {
@@ -136,13 +137,9 @@ void draw_numbers(NumberFacts& facts, NumberLook& look) {
     draw_histogram(*facts.statistics, look);
     draw_rules(*facts.statistics, look);
   }
-  draw_field("First value", look, false);
-  draw_field("Last value", look, true);
-  double step = look.contour_step;
-  if (ImGui::InputDouble("Contours every", &step, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue) &&
-      std::isfinite(step)) {
-    look.contour_step = std::max(step, 0.0);
-  }
+  if (const auto low = entered("First value", look.low)) look = dragged(look, false, *low);
+  if (const auto high = entered("Last value", look.high)) look = dragged(look, true, *high);
+  if (const auto step = entered("Contours every", look.contour_step)) look.contour_step = std::max(*step, 0.0);
   tip("Draws contour lines at the multiples of this value. 0 draws none.");
   ImGui::Checkbox("Lit", &look.lit);
   tip("Lets Sun, relief and air change the colours. Otherwise they are those of the legend.");
