@@ -76,6 +76,7 @@ Result<SceneObjects> add_objects(Globe& globe, const ObjectsOption& option, bool
   layer.bounds = bounds_of(file->scene);
   const bool needs_features = keep_features || !option.style_over.empty();
   LayerFeatures features = needs_features ? layer_features(file->scene, layer.style) : LayerFeatures{};
+  if (keep_features) layer.list = listed_features(file->scene);
   const auto added = globe.add_objects(std::move(file->scene), option.shown);
   if (!added) return added.error();
   layer.id = *added;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/open_scene/listed_features.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "globe/globe.h"
 #include "streaming/objects/classes/layer_features.h"
@@ -22,10 +23,11 @@ void add_label_font(GlobeOptions& options);
 struct SceneObjects {
   LayerId id = LayerId::none;
   ObjectsOption option;
-  std::optional<GeoRect> bounds{};  ///< none without objects
-  bool faultless = true;            ///< false if objects were faulty
-  FeatureStyle style{};             ///< the style in which they are drawn
-  LayerFeatures features{};         ///< empty unless they are kept
+  std::optional<GeoRect> bounds{};    ///< none without objects
+  bool faultless = true;              ///< false if objects were faulty
+  FeatureStyle style{};               ///< the style in which they are drawn
+  LayerFeatures features{};           ///< empty unless they are kept
+  std::vector<ListedFeature> list{};  ///< empty unless features are kept
 };
 
 /// Reads a file of objects in its style, or a model and puts it in its place. The error names the file. thread: any

@@ -98,6 +98,7 @@ void Viewer::handle_events() {
   for (std::filesystem::path& file : input_.take_dropped()) open_file(std::move(file));
   cutting_.add(layers_.take_opened());
   if (layers_.take_open_wish()) open_.toggle();
+  if (auto layer = layers_.take_list_wish()) list_.open(*std::move(layer));
   follow_panels();
 }
 
@@ -248,8 +249,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 9> newest{&pictures_,  &profile_, &search_, &open_, &projects_,
-                               &bookmarks_, &draw_,    &layers_, &modes_};
+  std::array<Panel*, 10> newest{&pictures_, &profile_,   &search_, &open_,   &projects_,
+                                &list_,     &bookmarks_, &draw_,   &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

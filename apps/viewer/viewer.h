@@ -10,6 +10,7 @@
 #include "apps/viewer/action.h"
 #include "apps/viewer/balloon/balloon.h"
 #include "apps/viewer/draw/draw.h"
+#include "apps/viewer/feature_list/feature_list.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
@@ -142,6 +143,11 @@ class Viewer {
                    [this] { profile_.toggle(); }};
   Balloon balloon_{context_,
                    [this](LayerId layer) { return draw_.owns(layer) ? "Drawings" : layers_.shown_objects(layer); }};
+  FeatureList list_{context_,
+                    {.has_layer = [this](LayerId layer) { return layers_.has_objects(layer); },
+                     .chosen = [this](LayerId layer) { return balloon_.chosen_of(layer); },
+                     .choose = [this](LayerId layer, const ListedFeature& one) { balloon_.choose(layer, one); },
+                     .fly = [this] { balloon_.fly_there(); }}};
   Cutting cutting_;
   PlaceMenu menu_{context_,
                   actions(),
@@ -153,9 +159,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 15> parts_{&help_,     &menu_,      &pictures_, &search_,  &open_,
-                                     &projects_, &bookmarks_, &balloon_,  &profile_, &draw_,
-                                     &layers_,   &modes_,     &measure_,  &cutting_, &map_};
+  const std::array<Part*, 16> parts_{&help_,      &menu_,    &pictures_, &search_,  &open_, &projects_,
+                                     &bookmarks_, &list_,    &balloon_,  &profile_, &draw_, &layers_,
+                                     &modes_,     &measure_, &cutting_,  &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

@@ -15,10 +15,12 @@
 namespace terrella {
 namespace {
 
-constexpr int kFittingFrames = 2;  // after a change of size
-constexpr int kRings = 8;          // rings of picks around the middle of the picture
-constexpr double kRing_px = 6.0;   // from one ring to the next, at 96 dots per inch: less than a marker
-constexpr int kPicksInRing = 6;    // more in each ring than in the ring within it
+constexpr int kFittingFrames = 2;         // after a change of size
+constexpr int kRings = 8;                 // rings of picks around the middle of the picture
+constexpr double kRing_px = 6.0;          // from one ring to the next, at 96 dots per inch: less than a marker
+constexpr int kPicksInRing = 6;           // more in each ring than in the ring within it
+constexpr double kFlyShare = 0.4;         // height after a flight to a place out of view, as after a double click
+constexpr double kLeastFlight_m = 100.0;  // over the object
 const ImU32 kStem = IM_COL32(232, 240, 248, 160);
 
 /// Draws a line from the balloon to its place, under the panels.
@@ -47,11 +49,14 @@ std::optional<Balloon::Chosen> Balloon::find(glm::dvec2 at_px) const {
   }
   Geodetic place = ground.ellipsoid().to_geodetic(at);
   place.height_m = ground.height_over_m(place);
-  const auto& feature = found.object->of.feature;
+  return described(found.objects, *std::move(found.object), place, *std::move(layer));
+}
+
+Balloon::Chosen Balloon::described(LayerId layer, PickedObject object, const Geodetic& place, std::string layer_name) {
+  const auto& feature = object.of.feature;
   ObjectFields fields = object_fields(feature ? feature->properties : std::string());
-  std::string title = object_title(*found.object, fields);
-  return Chosen{
-      found.objects, *std::move(found.object), place, {std::move(title), *std::move(layer), std::move(fields.rows)}};
+  std::string title = object_title(object, fields);
+  return {layer, std::move(object), place, {std::move(title), std::move(layer_name), std::move(fields.rows)}};
 }
 
 // Marker and label of a feature have one id.
@@ -87,6 +92,32 @@ void Balloon::click(glm::dvec2 at_px) {
   if (found || chosen_) choose(std::move(found));
 }
 
+void Balloon::choose(LayerId layer, const ListedFeature& feature) {
+  auto name = layer_name_(layer);
+  if (!name) return say("The layer is hidden; L shows the layers");
+  Geodetic place = feature.place;
+  if (feature.heights == HeightMode::absolute) place.height_m = context_.globe.ground().height_over_m(place);
+  if (feature.heights == HeightMode::clamp_to_ground) place.height_m = 0.0;
+  choose(described(layer, {.kind = feature.kind, .of = feature.of}, place, *std::move(name)));
+  if (place_px(context_.globe.view(context_.window.framebuffer()))) return;
+  say(chosen_->texts.title + " is not in view: Enter or another click flies there");
+}
+
+ObjectId Balloon::chosen_of(LayerId layer) const {
+  return chosen_ && chosen_->layer == layer ? chosen_->object.of.id : ObjectId::none;
+}
+
+void Balloon::fly_there() const {
+  if (!chosen_) return;
+  Navigator& navigator = context_.navigator;
+  if (const auto at_px = place_px(context_.globe.view(context_.window.framebuffer())))
+    return navigator.double_click(*at_px, Input::now());
+  Camera over{.eye = chosen_place(), .fov_y = navigator.camera().fov_y};
+  const double height_m = kFlyShare * navigator.camera().eye.height_m;
+  over.eye.height_m = std::max(over.eye.height_m + kLeastFlight_m, height_m);
+  navigator.fly_to(over, Input::now());
+}
+
 // Arrow keys move far, so objects near the middle count too: the nearest first.
 void Balloon::open_in_middle() {
   const double step_px = kRing_px * double(context_.window.text_scale());
@@ -115,12 +146,16 @@ bool Balloon::changed() const { return frames_ > 0 || pointer_.is_due(Input::now
 
 double Balloon::seconds_left(double most_s) const { return pointer_.seconds_left(Input::now(), most_s); }
 
-/// The place in the picture; nullopt if the place is beside the picture or hidden.
-std::optional<glm::dvec2> Balloon::place_px(const View& view) const {
+Geodetic Balloon::chosen_place() const {
   const Ground ground = context_.globe.ground();
   Geodetic place = chosen_->place;
   place.height_m += ground.height_m(place.lat, place.lon);
-  const Ecef at = ground.ellipsoid().to_ecef(place);
+  return place;
+}
+
+/// The place in the picture; nullopt if the place is beside the picture or hidden.
+std::optional<glm::dvec2> Balloon::place_px(const View& view) const {
+  const Ecef at = context_.globe.options().body.ellipsoid.to_ecef(chosen_place());
   const auto px = project(view, at);
   if (!px || px->x < 0.0 || px->y < 0.0 || px->x > view.viewport.width_px || px->y > view.viewport.height_px) return {};
   return is_hidden(context_.globe, view, at) ? std::nullopt : px;
@@ -145,7 +180,7 @@ void Balloon::draw_chosen(const View& view, float foot) {
   }
   box_ = wish->box;
   if (context_.globe.options().stereo.mode == Stereo::off) draw_stem(wish->box, at);
-  if (wish->fly) context_.navigator.double_click(*at_px, Input::now());
+  if (wish->fly) fly_there();
   if (!wish->link.empty()) {
     if (const Status opened = links_.open(wish->link); !opened) tell(opened.error().message);
   }

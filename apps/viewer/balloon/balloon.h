@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/open_scene/listed_features.h"
 #include "apps/viewer/balloon/balloon_panel.h"
 #include "apps/viewer/balloon/link_opener.h"
 #include "apps/viewer/balloon/pointer_rest.h"
@@ -25,6 +26,12 @@ class Balloon : public Part {
   void click(glm::dvec2 at_px);
   /// The same, with the keyboard, for the object in the middle of the picture or near it.
   void open_in_middle();
+  /// Opens the balloon of a feature, wherever it is. If the feature is not in view, a message says so.
+  void choose(LayerId layer, const ListedFeature& feature);
+  /// Flies to the object of the balloon: as by a double click on it, or over it if it is not in view.
+  void fly_there() const;
+  /// Id of the object of the balloon, if it is one of the layer.
+  [[nodiscard]] ObjectId chosen_of(LayerId layer) const;
   /// True while the object of the balloon is in view, from the click on.
   [[nodiscard]] bool is_in_view() const { return in_view_; }
   /// Draws the balloon where no panel of this frame is, while its object is in view; and the name of the object at
@@ -46,10 +53,13 @@ class Balloon : public Part {
     Geodetic place;  ///< the height counts from the ground, which changes as heights arrive
     BalloonTexts texts;
   };
+  [[nodiscard]] static Chosen described(LayerId layer, PickedObject object, const Geodetic& place,
+                                        std::string layer_name);
   [[nodiscard]] std::optional<Chosen> find(glm::dvec2 at_px) const;
   [[nodiscard]] bool is_chosen(const Chosen& other) const;
   void choose(std::optional<Chosen> chosen);
   void mark(bool selected) const;
+  [[nodiscard]] Geodetic chosen_place() const;
   [[nodiscard]] std::optional<glm::dvec2> place_px(const View& view) const;
   void tell(const std::string& text);
   void draw_chosen(const View& view, float foot);

@@ -117,6 +117,13 @@ ObjectFields object_fields(std::string_view properties) {
   return fields;
 }
 
+std::string object_field(std::string_view properties, const std::string& name) {
+  const json all = json::parse(properties, nullptr, false);
+  if (!all.is_object()) return {};
+  const auto found = all.find(name);
+  return found == all.end() ? std::string() : field_text(*found);
+}
+
 std::string object_title(const PickedObject& object, const ObjectFields& fields) {
   return fields.title.empty() ? word_of(object.kind) : fields.title;
 }

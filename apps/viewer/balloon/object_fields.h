@@ -26,6 +26,9 @@ struct ObjectFields {
 /// thread: any
 [[nodiscard]] ObjectFields object_fields(std::string_view properties);
 
+/// Returns the value of one field, as object_fields() returns it; empty without a value. thread: any
+[[nodiscard]] std::string object_field(std::string_view properties, const std::string& name);
+
 /// Name of a picked object: that of its fields, else its kind, such as "Area". thread: any
 [[nodiscard]] std::string object_title(const PickedObject& object, const ObjectFields& fields);
 

@@ -91,6 +91,7 @@ LayerAsk draw_buttons(const LayerRow& row) {
     button("Down", LayerAsk::lower, "Moves the layer below the next layer of its kind.");
   }
   if (row.bounds) button("Zoom to", LayerAsk::look_at, "Flies to the layer.");
+  if (row.features && !row.features->empty()) button("List", LayerAsk::list, "Lists the objects, with a filter.");
   button("Remove", LayerAsk::remove, "Removes the layer from the globe; the file stays unchanged.");
   ImGui::NewLine();
   return ask;

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
 #include "apps/open_scene/bounds_view.h"
+#include "apps/open_scene/listed_features.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/scene_numbers.h"
 #include "apps/viewer/styles/layer_style.h"
@@ -33,17 +35,18 @@ struct LayerRow {
   std::string problem = {};                 ///< last failure of a tile, while tiles are missing
   ImageLook look = {};                      ///< objects use `shown` and opacity, heights use `shown`
   FactsReader read_facts = {};              ///< reads the facts of a raster; empty for other layers
-  std::shared_future<std::vector<std::string>> facts = {};  ///< begun when the row is first open
-  bool fills_checked = false;                               ///< objects: areas without a fill are reported
-  std::shared_ptr<LayerStyle> style = {};                   ///< set for objects with features
-  bool facts_drawn = false;                                 ///< the panel was drawn since they came
+  std::shared_future<std::vector<std::string>> facts = {};          ///< begun when the row is first open
+  bool fills_checked = false;                                       ///< objects: areas without a fill are reported
+  std::shared_ptr<LayerStyle> style = {};                           ///< set for objects with features
+  std::shared_ptr<const std::vector<ListedFeature>> features = {};  ///< set for objects; may be empty
+  bool facts_drawn = false;                                         ///< the panel was drawn since they came
 
   [[nodiscard]] bool has_facts() const {
     return facts.valid() && facts.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
 };
 
-enum class LayerAsk { none, raise, lower, remove, look_at, open };
+enum class LayerAsk { none, raise, lower, remove, look_at, list, open };
 /// User's request that is not stored in `rows`.
 struct LayerWish {
   LayerAsk ask = LayerAsk::none;

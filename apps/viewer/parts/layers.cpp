@@ -49,7 +49,8 @@ bool Layers::changed() const {
   const auto has_news = [](const LayerRow& row) {
     return (!row.facts_drawn && row.has_facts()) || (row.style && row.style->has_news());
   };
-  return files_.ready() || value_.ready() || open_wish_ || (panel() != nullptr && std::ranges::any_of(rows_, has_news));
+  return files_.ready() || value_.ready() || open_wish_ || list_wish_ ||
+         (panel() != nullptr && std::ranges::any_of(rows_, has_news));
 }
 
 void Layers::draw_open(float foot) {
@@ -75,6 +76,9 @@ void Layers::draw_open(float foot) {
       return fly_over(context_, *rows_[wish.row].bounds);
     case LayerAsk::remove:
       return remove(wish.row);
+    case LayerAsk::list:
+      list_wish_ = {.id = rows_[wish.row].id, .name = rows_[wish.row].name, .features = rows_[wish.row].features};
+      return;
     case LayerAsk::open:
       open_wish_ = true;
       return;
@@ -101,6 +105,11 @@ void Layers::draw_legend(float foot, bool before_panels) const {
   const bool high = box.top > kHighWindow * Ui::text_height();
   if (high == before_panels && std::ranges::none_of(Ui::panel_boxes(), covers))
     terrella::draw_legend(items, gap, bottom);
+}
+
+bool Layers::has_objects(LayerId layer) const {
+  return std::ranges::any_of(
+      rows_, [layer](const LayerRow& row) { return row.kind == LayerKind::objects && row.id == layer; });
 }
 
 std::optional<std::string> Layers::shown_objects(LayerId layer) const {
@@ -330,6 +339,7 @@ Status Layers::add_objects(ObjectFile file, LayerRow& row) {
   row.bounds = bounds_of(file.scene);
   row.attribution = file.attribution;
   row.style = style_of_layer(layer_features(file.scene));
+  row.features = std::make_shared<const std::vector<ListedFeature>>(listed_features(file.scene));
   const auto id = context_.globe.add_objects(std::move(file.scene));
   if (!id) return id.error();
   row.id = *id;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/viewer/feature_list/feature_list.h"
 #include "apps/viewer/panels/layer_panel.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/parts/part.h"
@@ -32,6 +33,10 @@ class Layers : public Panel {
   void watch_tiles(const FrameStats& stats);
   /// True once after a click on the button that opens a file.
   [[nodiscard]] bool take_open_wish() { return std::exchange(open_wish_, false); }
+
+  /// The layer whose list a click has asked for, once.
+  [[nodiscard]] std::optional<ListedLayer> take_list_wish() { return std::exchange(list_wish_, {}); }
+  [[nodiscard]] bool has_objects(LayerId layer) const;
 
   [[nodiscard]] std::string job() const override { return files_.text(); }
   [[nodiscard]] bool changed() const override;
@@ -76,6 +81,7 @@ class Layers : public Panel {
   std::vector<LayerSwitch> switches_;
   ValueQuery value_;
   bool open_wish_ = false;
+  std::optional<ListedLayer> list_wish_;
 };
 
 }  // namespace terrella

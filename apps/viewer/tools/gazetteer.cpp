@@ -1,15 +1,12 @@
 #include "apps/viewer/tools/gazetteer.h"
 
-#include <utf8proc.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
-#include "base/number.h"
+#include "apps/viewer/tools/folded_text.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 
@@ -18,20 +15,6 @@ namespace {
 
 constexpr std::size_t kMostGazetteerBytes = 32UL << 20;
 constexpr double kPeoplePerKm2 = 62.0;  // mean of all land: 8.1e9 people on 1.3e8 km² without Antarctica
-
-/// Text without case, accents and blanks around it. Text that is not UTF-8 is kept as it is.
-std::string folded(std::string_view text) {
-  text = trimmed(text);
-  utf8proc_uint8_t* bare = nullptr;
-  constexpr auto kHow = static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_DECOMPOSE | UTF8PROC_COMPAT |
-                                                       UTF8PROC_STRIPMARK | UTF8PROC_CASEFOLD);
-  const auto length = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
-                                   static_cast<utf8proc_ssize_t>(text.size()), &bare, kHow);
-  if (length < 0) return std::string(text);
-  std::string result(reinterpret_cast<const char*>(bare), static_cast<std::size_t>(length));
-  std::free(bare);
-  return result;
-}
 
 bool is_on_planet(const Geodetic& place) {
   return std::abs(place.lat.deg()) <= 90.0 && std::abs(place.lon.deg()) <= 360.0;
