@@ -116,6 +116,7 @@ void Balloon::fly_there() const {
   const double height_m = kFlyShare * navigator.camera().eye.height_m;
   over.eye.height_m = std::max(over.eye.height_m + kLeastFlight_m, height_m);
   navigator.fly_to(over, Input::now());
+  say(chosen_->texts.title);
 }
 
 // Arrow keys move far, so objects near the middle count too: the nearest first.

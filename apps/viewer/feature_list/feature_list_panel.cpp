@@ -14,7 +14,7 @@
 namespace terrella {
 namespace {
 
-constexpr float kListWidth = 21.0F;     // in text heights, that of the panel of layers
+constexpr float kListWidth = 20.0F;     // in text heights; the middle of a window of 640 pixels stays free
 constexpr float kWideWindow = 64.0F;    // in text heights; the list then stands beside the panel of layers
 constexpr float kRoomForField = 15.0F;  // in text heights, of the contents
 constexpr float kLeastTable = 4.0F;     // in rows, with the head
@@ -130,9 +130,10 @@ void draw_table(const ListContents& contents, float bottom, ListWish& wish) {
   const float row = row_height();
   const float room = bottom - ImGui::GetCursorScreenPos().y - ImGui::GetStyle().WindowPadding.y;
   const float wanted = row * static_cast<float>(contents.table->names.size() + 1);
-  const float height = std::floor(std::max(kLeastTable * row, std::min(room, wanted)));
+  const float height = row * std::max(kLeastTable, std::floor(std::min(room, wanted) / row));
   constexpr int kFlags = int(ImGuiTableFlags_ScrollY) | int(ImGuiTableFlags_Sortable) | int(ImGuiTableFlags_RowBg) |
-                         int(ImGuiTableFlags_Resizable) | int(ImGuiTableFlags_NoSavedSettings);
+                         int(ImGuiTableFlags_Resizable) | int(ImGuiTableFlags_SizingStretchProp) |
+                         int(ImGuiTableFlags_NoSavedSettings);
   // Another table for each choice, so that it begins with the widths and the order of its own.
   ImGui::PushID(contents.field.c_str());
   if (ImGui::BeginTable("##features", with_field ? 2 : 1, kFlags, {0.0F, height})) {

@@ -1,6 +1,7 @@
 #include "apps/viewer/panels/layer_panel.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/viewer/panels/number_panel.h"
 #include "apps/viewer/panels/panel_fonts.h"
@@ -81,10 +82,11 @@ void draw_facts(LayerRow& row) {
 
 LayerAsk draw_buttons(const LayerRow& row) {
   LayerAsk ask = LayerAsk::none;
-  const auto button = [&ask](const char* name, LayerAsk what, const char* why) {
+  bool first = true;
+  const auto button = [&ask, &first](const char* name, LayerAsk what, const char* why) {
+    if (!std::exchange(first, false)) beside_if_room(name);
     if (ImGui::Button(name)) ask = what;
     tip(why);
-    ImGui::SameLine();
   };
   if (row.kind != LayerKind::heights) {
     button("Up", LayerAsk::raise, "Moves the layer above the next layer of its kind.");
@@ -93,7 +95,6 @@ LayerAsk draw_buttons(const LayerRow& row) {
   if (row.bounds) button("Zoom to", LayerAsk::look_at, "Flies to the layer.");
   if (row.features && !row.features->empty()) button("List", LayerAsk::list, "Lists the objects, with a filter.");
   button("Remove", LayerAsk::remove, "Removes the layer from the globe; the file stays unchanged.");
-  ImGui::NewLine();
   return ask;
 }
 
