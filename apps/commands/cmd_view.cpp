@@ -123,6 +123,7 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Open
   const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
   const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
   LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .source = said, .numbers = layer.numbers};
+  row.tiles = layer.tiles;
   row.source.cuts = nullptr;  // those of the opening end with it
   row.source.opened = nullptr;
   if (const auto look = scene.globe->look(layer.id)) row.look = *look;

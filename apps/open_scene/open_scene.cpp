@@ -89,9 +89,10 @@ Status SceneOpener::make_globe(const GlobeOptions& options, ImageryLayer base) {
   }
   ImageLook look = options_.base_look;
   look.numbers = base.look.numbers;
-  const auto added = scene_.globe->add_imagery(std::move(base.tiles), look);
+  const auto added = scene_.globe->add_imagery(base.tiles, look);
   if (!added) return added.error();
-  scene_.images.push_back({.id = *added, .numbers = std::move(base.numbers), .source = options_.base});
+  scene_.images.push_back(
+      {.id = *added, .numbers = std::move(base.numbers), .source = options_.base, .tiles = std::move(base.tiles)});
   return Done{};
 }
 
@@ -107,9 +108,9 @@ Status SceneOpener::add_pictures(const Url& address, const ImageLook& look) {
   const SourceOptions source = options_beside(options_.base, address);
   auto tiles = open_imagery(source);
   if (!tiles) return tiles.error();
-  const auto added = scene_.globe->add_imagery(*std::move(tiles), look);
+  const auto added = scene_.globe->add_imagery(*tiles, look);
   if (!added) return added.error();
-  scene_.images.push_back({.id = *added, .source = source});
+  scene_.images.push_back({.id = *added, .source = source, .tiles = *std::move(tiles)});
   return Done{};
 }
 
@@ -199,7 +200,8 @@ Result<SceneLayer> add_layer(Globe& globe, const SourceOptions& source, const Im
   wanted.numbers = opened->look.numbers;
   const auto added = globe.add_imagery(opened->tiles, wanted);
   if (!added) return Error{source.address.redacted() + ": " + added.error().message};
-  return SceneLayer{.id = *added, .numbers = std::move(opened->numbers), .source = source};
+  return SceneLayer{
+      .id = *added, .numbers = std::move(opened->numbers), .source = source, .tiles = std::move(opened->tiles)};
 }
 
 Result<SceneLayer> add_overlay(Globe& globe, const SceneOptions& options, const OverlayOption& overlay) {

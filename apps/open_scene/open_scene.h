@@ -19,6 +19,7 @@ struct SceneLayer {
   Url address{};                         ///< empty: the included Earth
   std::optional<NumberFacts> numbers{};  ///< set if the layer has numbers
   SourceOptions source{};                ///< an empty address: the included Earth
+  std::shared_ptr<TileSource> tiles{};
 };
 
 /// A globe with the layers that the options of a scene name.

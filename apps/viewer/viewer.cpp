@@ -171,6 +171,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, framebuffer.width_px, framebuffer.height_px);
   draw_panels(framebuffer);
+  layers_.note_looks();
   const bool whole = panel_frames_ == 0 && !letters_wait();  // a newly opened panel is not drawn yet
   if (whole) pictures_.after_frame(framebuffer);
   glfwSwapBuffers(window_.handle());

@@ -87,6 +87,8 @@ class Viewer {
   void click(glm::dvec2 at_px);
   void add_middle();
   void take_back();
+  void undo();
+  void redo();
   void save_drawn();
   void toggle_swipe();
   [[nodiscard]] bool is_closed();

@@ -58,6 +58,10 @@ void Viewer::add_middle() {
 
 void Viewer::take_back() { draw_.is_sketching() ? draw_.take_back() : measure_.take_back(); }
 
+void Viewer::undo() { draw_.is_open() ? draw_.undo() : layers_.undo(); }
+
+void Viewer::redo() { draw_.is_open() ? draw_.redo() : layers_.redo(); }
+
 void Viewer::save_drawn() { draw_.is_open() && !measure_.is_on() ? draw_.save() : measure_.save(); }
 
 void Viewer::toggle_swipe() {
@@ -234,18 +238,18 @@ constinit const Action Viewer::kActions[] = {
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Save"},
     {.keys = "Ctrl + Z",
-     .what = "draw: undo",
-     .run = [](V v) { v.draw_.undo(); },
+     .what = "undo: drawing while it is open, else layers",
+     .run = [](V v) { v.undo(); },
      .characters = U"z",
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Undo"},
     {.keys = "Ctrl + Y, Ctrl + Shift + Z",
-     .what = "draw: redo",
-     .run = [](V v) { v.draw_.redo(); },
+     .what = "redo: drawing while it is open, else layers",
+     .run = [](V v) { v.redo(); },
      .characters = U"y",
      .flags = Action::ctrl | Action::unlisted,
      .mouse = "Redo"},
-    {nullptr, nullptr, [](V v) { v.draw_.redo(); }, U"z", 0, 0, Action::ctrl | Action::shifted},
+    {nullptr, nullptr, [](V v) { v.redo(); }, U"z", 0, 0, Action::ctrl | Action::shifted},
     {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
     {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
     {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},

@@ -254,8 +254,8 @@ class Walk(WindowTest):
             "measure, draw: save as GeoJSON or KML": (
                 lambda act: self.filed("terrella-*.geojson", act), lambda: key("ctrl+s"), lambda: row_button(2),
                 self.measured, self.after_measuring),
-            "draw: undo": (self.shown, lambda: key("ctrl+z"), lambda: self.draw_button(0), self.drawn, self.close),
-            "draw: redo": (self.shown, lambda: key("ctrl+y"), lambda: self.draw_button(1), self.undone, self.close),
+            "undo: drawing while it is open, else layers": (self.shown, lambda: key("ctrl+z"), lambda: self.draw_button(0), self.drawn, self.close),
+            "redo: drawing while it is open, else layers": (self.shown, lambda: key("ctrl+y"), lambda: self.draw_button(1), self.undone, self.close),
             "fly to a bookmark": (self.moved, lambda: key("1"), self.bookmark_click, self.away, none),
             "save the view as a bookmark": (self.stored, lambda: key("ctrl+2"), lambda: self.place_item(2), self.away,
                                             none),

@@ -8,6 +8,7 @@
 namespace terrella {
 namespace {
 
+constexpr int kFittingFrames = 2;             // after a change of the rows
 constexpr std::size_t kRowsInFrame = 20'000;  // searched in some milliseconds
 
 template <class Value>
@@ -76,7 +77,7 @@ std::string FeatureList::job() const {
 
 bool FeatureList::changed() const {
   if (panel() == nullptr) return false;
-  return has_come(reading_.value) || has_come(reading_field_.value) || filter_.is_busy();
+  return has_come(reading_.value) || has_come(reading_field_.value) || filter_.is_busy() || frames_ > 0;
 }
 
 void FeatureList::toggled() {
@@ -107,6 +108,8 @@ void FeatureList::draw(float foot) {
 
 void FeatureList::draw_open(float foot) {
   take_work();
+  frames_ = std::max(0, frames_ - 1);
+  if (filter_.is_busy()) frames_ = kFittingFrames;
   if (table_) filter_.step(*table_, kRowsInFrame);
   const ListContents contents{.layer = layer_.name,
                               .table = table_ ? &*table_ : nullptr,

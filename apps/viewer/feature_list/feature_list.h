@@ -25,7 +25,7 @@ struct ListedLayer {
   std::shared_ptr<const std::vector<ListedFeature>> features = {};  ///< in ascending order of ids
 };
 
-/// What the list asks of the other parts of the window.
+/// Requests of the list to the other parts of the window.
 struct FeatureListAsks {
   std::function<bool(LayerId)> has_layer;                     ///< false once the layer is removed
   std::function<ObjectId(LayerId)> chosen;                    ///< the layer's object with a balloon; none: no object
@@ -81,6 +81,7 @@ class FeatureList : public Panel {
   ListSort sort_;
   std::string text_;  ///< the filter's
   FeatureFilter filter_;
+  int frames_ = 0;       ///< frames still to draw: Dear ImGui fits a table to its rows one frame later
   bool reveal_ = false;  ///< the next frame scrolls to the selected row
 };
 

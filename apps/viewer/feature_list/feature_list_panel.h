@@ -16,7 +16,7 @@ struct ListSort {
   bool operator==(const ListSort&) const = default;
 };
 
-/// What the panel of a list shows.
+/// Contents of the panel of a list.
 struct ListContents {
   const std::string& layer;
   const FeatureTable* table = nullptr;  ///< null while the features are being read

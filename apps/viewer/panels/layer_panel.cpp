@@ -149,7 +149,7 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
     tip(more.tip);
   }
   for (std::size_t i = rows.size(); i-- > 0;) {
-    ImGui::PushID(static_cast<int>(rows[i].id) * 4 + static_cast<int>(rows[i].kind));
+    ImGui::PushID(static_cast<int>(rows[i].key));
     const LayerAsk ask = draw_row(rows[i]);
     if (ask != LayerAsk::none) wish = {ask, i};
     ImGui::PopID();
@@ -158,6 +158,12 @@ LayerWish draw_layers(const char* title, std::vector<LayerRow>& rows, const std:
   ImGui::PushTextWrapPos(0.0F);
   if (ImGui::Button("Add a layer")) wish.ask = LayerAsk::open;
   tip("Ctrl + O: opens a file, a folder or an address. Dropping a file onto the window does the same.");
+  ImGui::SameLine();
+  if (ImGui::Button("Undo")) wish.ask = LayerAsk::undo;
+  tip("Ctrl + Z: takes back the last change of a layer's look, order or removal.");
+  ImGui::SameLine();
+  if (ImGui::Button("Redo")) wish.ask = LayerAsk::redo;
+  tip("Ctrl + Y: makes the change again.");
   ImGui::TextDisabled("The highest layer is first.");
   ImGui::PopTextWrapPos();
   ImGui::PopItemWidth();

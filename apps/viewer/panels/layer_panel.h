@@ -25,7 +25,9 @@ enum class LayerKind { imagery, objects, heights };
 struct LayerRow {
   LayerId id = LayerId::none;  ///< none for heights
   LayerKind kind = LayerKind::imagery;
+  unsigned key = 0;  ///< stays the same when a removed layer returns under another id
   std::string name = {};
+  std::shared_ptr<TileSource> tiles = {};   ///< imagery only
   SourceOptions source = {};                ///< source of imagery and heights; no address: the included Earth
   ObjectsOption objects = {};               ///< file and style of objects
   std::optional<GeoRect> bounds = {};       ///< set if known and smaller than the planet
@@ -46,7 +48,7 @@ struct LayerRow {
   }
 };
 
-enum class LayerAsk { none, raise, lower, remove, look_at, list, open };
+enum class LayerAsk { none, raise, lower, remove, look_at, list, open, undo, redo };
 /// User's request that is not stored in `rows`.
 struct LayerWish {
   LayerAsk ask = LayerAsk::none;

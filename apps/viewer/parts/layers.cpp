@@ -43,7 +43,10 @@ Layers::Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::op
       rows_(std::move(rows)),
       heights_(std::move(heights)),
       files_(files),
-      switches_(std::move(switches)) {}
+      switches_(std::move(switches)) {
+  for (LayerRow& row : rows_) row.key = ++steps_.last_key;
+  forget_looks();
+}
 
 bool Layers::changed() const {
   const auto has_news = [](const LayerRow& row) {
@@ -82,6 +85,10 @@ void Layers::draw_open(float foot) {
     case LayerAsk::open:
       open_wish_ = true;
       return;
+    case LayerAsk::undo:
+      return undo();
+    case LayerAsk::redo:
+      return redo();
   }
 }
 
@@ -130,11 +137,7 @@ void Layers::describe(SceneOptions& scene) const {
     } else if (row.kind == LayerKind::imagery) {
       images.push_back({.source = described(row), .look = row.look});
     } else {
-      ObjectsOption objects = row.objects;
-      objects.shown = row.look.shown;
-      objects.opacity = row.look.opacity;
-      objects.style_over = row.style && !row.style->is_own() ? row.style->text() : std::string();
-      scene.object_layers.push_back(std::move(objects));
+      scene.object_layers.push_back(described_objects(row));
     }
   }
   if (images.size() < 2) scene.surface.swipe.reset();  // there is nothing to compare
@@ -207,28 +210,47 @@ Status Layers::use_heights(const std::optional<ElevationSource>& heights) {
   return Done{};
 }
 
-// Rows of a kind have the globe's order in the list.
 void Layers::move(std::size_t row, bool up) {
+  note_looks_now();
+  const unsigned key = rows_[row].key;
+  const std::string name = rows_[row].name;
+  if (move_row(row, up)) steps_.steps.add(MoveStep{.key = key, .name = name, .up = up});
+}
+
+// Rows of a kind have the globe's order in the list.
+bool Layers::move_row(std::size_t row, bool up) {
   Globe& globe = context_.globe;
   const auto ids = rows_[row].kind == LayerKind::objects ? globe.objects() : globe.imagery();
   const auto place = std::size_t(std::ranges::find(ids, rows_[row].id) - ids.begin());
-  if (up ? place + 1 >= ids.size() : place == 0) return;
+  if (up ? place + 1 >= ids.size() : place == 0) return false;
   const LayerId neighbour = ids[up ? place + 1 : place - 1];
   const auto other = std::ranges::find(rows_, neighbour, &LayerRow::id);
-  if (other == rows_.end()) return;  // the measurement has no row and stays on top
+  if (other == rows_.end()) return false;  // the measurement has no row and stays on top
   const Status moved = globe.move(rows_[row].id, up ? place + 1 : place - 1);
-  if (!moved) return say(moved.error().message);
-  std::swap(rows_[row], *other);
+  if (!moved) say(moved.error().message);
+  if (moved) std::swap(rows_[row], *other);
+  return bool(moved);
 }
 
 void Layers::remove(std::size_t row) {
+  note_looks_now();
+  RemoveStep step = removal_of(rows_[row]);
+  if (!remove_row(row)) return;
+  say("Removed " + step.row.name + "; Ctrl + Z brings it back");
+  steps_.steps.add(std::move(step));
+}
+
+bool Layers::remove_row(std::size_t row) {
   const LayerRow& layer = rows_[row];
   const bool heights = layer.kind == LayerKind::heights;
   const Status removed = heights ? use_heights(std::nullopt) : context_.globe.remove(layer.id);
-  if (!removed) return say(removed.error().message);
+  if (!removed) {
+    say(removed.error().message);
+    return false;
+  }
   if (heights) heights_.reset();
-  say("Removed " + layer.name);
   rows_.erase(rows_.begin() + std::ptrdiff_t(row));
+  return true;
 }
 
 void Layers::watch_tiles(const FrameStats& stats) {
@@ -317,8 +339,9 @@ Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {
   row.bounds = if_a_part(layer.tiles->info().grid.bounds);
   row.finest_level = layer.tiles->info().grid.max_level;
   row.attribution = layer.tiles->info().attribution;
-  const auto id = context_.globe.add_imagery(std::move(layer.tiles), layer.look);
+  const auto id = context_.globe.add_imagery(layer.tiles, layer.look);
   if (!id) return id.error();
+  row.tiles = std::move(layer.tiles);
   row.look = layer.look;
   row.numbers = std::move(layer.numbers);
   row.id = *id;
@@ -348,6 +371,7 @@ Status Layers::add_objects(ObjectFile file, LayerRow& row) {
 
 // Rows are sorted: heights, then imagery, then objects.
 void Layers::insert(LayerRow row) {
+  if (row.key == 0) row.key = ++steps_.last_key;
   const auto rank = [](LayerKind kind) { return kind == LayerKind::heights ? 0 : kind == LayerKind::imagery ? 1 : 2; };
   const auto over = std::ranges::find_if(rows_, [&](const LayerRow& r) { return rank(r.kind) > rank(row.kind); });
   rows_.insert(over, std::move(row));

@@ -12,6 +12,7 @@
 #include "apps/viewer/profile/profile_samples.h"
 #include "apps/viewer/tools/dropped_files.h"
 #include "apps/viewer/tools/value_query.h"
+#include "apps/viewer/undo/layer_steps.h"
 
 namespace terrella {
 
@@ -31,6 +32,11 @@ class Layers : public Panel {
 
   /// Shows the failures of tiles in their rows, and reports the first of each row. Call this once per frame.
   void watch_tiles(const FrameStats& stats);
+  /// Takes back, or makes again, what the user did to looks, order and presence of layers.
+  void undo();
+  void redo();
+  /// Notes changed looks as one step, once no item is held. Call this once per frame, after the panels.
+  void note_looks();
   /// True once after a click on the button that opens a file.
   [[nodiscard]] bool take_open_wish() { return std::exchange(open_wish_, false); }
 
@@ -67,13 +73,28 @@ class Layers : public Panel {
   void take_style(LayerRow& row);
   Status use_heights(const std::optional<ElevationSource>& heights);
   void move(std::size_t row, bool up);
+  [[nodiscard]] bool move_row(std::size_t row, bool up);
   void remove(std::size_t row);
+  [[nodiscard]] bool remove_row(std::size_t row);
   void add(OpenedFile file);
   [[nodiscard]] Status add_tiles(ImageryLayer layer, LayerRow& row);
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
   [[nodiscard]] Status add_objects(ObjectFile file, LayerRow& row);
   void insert(LayerRow row);
   void check_fills();
+
+  // Undo, in apps/viewer/undo/layers_undo.cpp.
+  [[nodiscard]] static ObjectsOption described_objects(const LayerRow& row);
+  [[nodiscard]] std::vector<LayerRow>::iterator row_of(unsigned key);
+  void note_looks_now();
+  void forget_looks();
+  [[nodiscard]] RemoveStep removal_of(const LayerRow& row) const;
+  void show_states(const std::vector<LayerState>& states);
+  void move_back(const MoveStep& step, bool up);
+  [[nodiscard]] Status bring_back(RemoveStep& step);
+  [[nodiscard]] Status bring_heights_back(LayerRow row, const std::optional<ElevationSource>& heights);
+  [[nodiscard]] Status read_again(LayerRow& row, const std::optional<LayerStyle::Drawn>& style);
+  void sort_rows();
 
   std::vector<LayerRow> rows_;
   std::optional<ElevationSource> heights_;  ///< kept while the heights are hidden
@@ -82,6 +103,7 @@ class Layers : public Panel {
   ValueQuery value_;
   bool open_wish_ = false;
   std::optional<ListedLayer> list_wish_;
+  LayerSteps steps_;
 };
 
 }  // namespace terrella

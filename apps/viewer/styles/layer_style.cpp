@@ -17,11 +17,17 @@ void leave_out_rest(ClassStyle& classes, const FieldValues& field) {
   if (!classes.categories.empty() && all) classes.rest.reset();
 }
 
+std::uint64_t next_number() {
+  static std::uint64_t last = 0;
+  return ++last;
+}
+
 }  // namespace
 
 LayerStyle::LayerStyle(std::shared_ptr<const LayerFeatures> features, FeatureStyle drawn)
-    : features_(std::move(features)), style_(std::move(drawn)), classes_(classes_of(style_)) {
-  if (classes_ && !is_own()) choice_.field = classes_->field;
+    : features_(std::move(features)), drawn_{.number = next_number(), .style = std::move(drawn)} {
+  drawn_.classes = classes_of(drawn_.style);
+  if (drawn_.classes && !is_own()) drawn_.choice.field = drawn_.classes->field;
 }
 
 void LayerStyle::read_fields(const std::function<void()>& wake_up) {
@@ -43,20 +49,24 @@ Status LayerStyle::apply(Globe& globe, LayerId layer, const StyleChoice& choice)
   const FieldValues* field = all != nullptr ? chosen_field(choice, *all) : nullptr;
   if (field == nullptr) {
     if (Status done = globe.edit_objects(layer, features_->own); !done) return done;
-    style_ = features_->style;
-    classes_ = classes_of(style_);
-    choice_ = choice;
-    choice_.field.clear();
+    drawn_ = {next_number(), choice, features_->style, classes_of(features_->style)};
+    drawn_.choice.field.clear();
     return Done{};
   }
   ClassStyle classes = style_of(choice, *field, targets_of(features_->parts));
   Result<FeatureStyle> style = overlaid(features_->style, style_text(classes));
   if (!style) return style.error();
   if (Status done = globe.edit_objects(layer, restyled(features_->parts, *style)); !done) return done;
-  style_ = *std::move(style);
   leave_out_rest(classes, *field);
-  classes_ = std::move(classes);
-  choice_ = choice;
+  drawn_ = {next_number(), choice, *std::move(style), std::move(classes)};
+  return Done{};
+}
+
+Status LayerStyle::restore(Globe& globe, LayerId layer, const Drawn& drawn) {
+  const bool own = style_text(drawn.style) == style_text(features_->style);
+  if (Status done = globe.edit_objects(layer, own ? features_->own : restyled(features_->parts, drawn.style)); !done)
+    return done;
+  drawn_ = drawn;
   return Done{};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -32,7 +33,7 @@ class LayerStyle {
   [[nodiscard]] bool has_news() const { return waiting_ && fields() != nullptr; }
 
   /// The choice that the layer is drawn in.
-  [[nodiscard]] const StyleChoice& choice() const { return choice_; }
+  [[nodiscard]] const StyleChoice& choice() const { return drawn_.choice; }
   /// Wishes another choice, which take_wish() tells once.
   void wish(StyleChoice choice) { wish_ = std::move(choice); }
   [[nodiscard]] std::optional<StyleChoice> take_wish() { return std::exchange(wish_, {}); }
@@ -43,20 +44,29 @@ class LayerStyle {
   /// Draws the features of a layer in a choice, without reading their file.
   Status apply(Globe& globe, LayerId layer, const StyleChoice& choice);
 
+  /// The drawn style, as restore() takes it. States with the same number are the same.
+  struct Drawn {
+    std::uint64_t number = 0;  ///< another one for each style that was ever drawn
+    StyleChoice choice = {};
+    FeatureStyle style = {};
+    std::optional<ClassStyle> classes = {};
+  };
+  [[nodiscard]] const Drawn& drawn() const { return drawn_; }
+  /// Draws the features of a layer in a style that they had before.
+  Status restore(Globe& globe, LayerId layer, const Drawn& drawn);
+
   /// The drawn classes; nullopt for a style without classes.
-  [[nodiscard]] const std::optional<ClassStyle>& classes() const { return classes_; }
+  [[nodiscard]] const std::optional<ClassStyle>& classes() const { return drawn_.classes; }
   /// True if the layer is drawn in the style that it was read in.
   [[nodiscard]] bool is_own() const { return text() == style_text(features_->style); }
   /// The drawn style, as --object-style reads it.
-  [[nodiscard]] std::string text() const { return style_text(style_); }
+  [[nodiscard]] std::string text() const { return style_text(drawn_.style); }
 
  private:
   std::shared_ptr<const LayerFeatures> features_;
   std::shared_future<std::vector<FieldValues>> fields_;
   bool waiting_ = false;
-  StyleChoice choice_;
-  FeatureStyle style_;
-  std::optional<ClassStyle> classes_;
+  Drawn drawn_;
   std::optional<StyleChoice> wish_;
   bool save_wish_ = false;
 };
