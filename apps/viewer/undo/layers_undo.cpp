@@ -70,7 +70,7 @@ RemoveStep Layers::removal_of(const LayerRow& row) const {
 void Layers::undo() {
   note_looks_now();
   LayerStep* step = steps_.steps.undo();
-  if (step == nullptr) return say("There is no change of a layer to undo");
+  if (step == nullptr) return say("There is no change of a layer to undo; D opens the drawing");
   say("Undone: " + step_text(*step));
   if (auto* look = std::get_if<LookStep>(step)) show_states(look->before);
   if (auto* move = std::get_if<MoveStep>(step)) move_back(*move, !move->up);
@@ -83,7 +83,7 @@ void Layers::undo() {
 void Layers::redo() {
   note_looks_now();
   LayerStep* step = steps_.steps.redo();
-  if (step == nullptr) return say("There is no change of a layer to redo");
+  if (step == nullptr) return say("There is no change of a layer to redo; D opens the drawing");
   if (auto* look = std::get_if<LookStep>(step)) show_states(look->after);
   if (auto* move = std::get_if<MoveStep>(step)) move_back(*move, move->up);
   if (auto* removed = std::get_if<RemoveStep>(step)) {
