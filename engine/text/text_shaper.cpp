@@ -5,6 +5,7 @@
 #include <hb-ft.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "text/text_runs.h"
@@ -13,6 +14,9 @@ namespace terrella {
 namespace {
 
 constexpr float kFixed = 64.0F;  // unit of FreeType and HarfBuzz here: 1/64 pixel
+constexpr unsigned kToTheEnd = ~0U;
+constexpr std::array<hb_feature_t, 2> kNoLigatures{
+    {{HB_TAG('l', 'i', 'g', 'a'), 0, 0, kToTheEnd}, {HB_TAG('c', 'l', 'i', 'g'), 0, 0, kToTheEnd}}};
 
 hb_unicode_general_category_t category_of(char32_t character) {
   return hb_unicode_general_category(hb_unicode_funcs_get_default(), character);
@@ -54,6 +58,15 @@ std::u32string composed(std::u32string_view text) {
   return result;
 }
 
+/// True for scripts that join letters, or hang them on one line, so that room between two letters would break words.
+bool joins_letters(std::uint32_t script) {
+  constexpr std::array kJoining = {HB_SCRIPT_ADLAM,     HB_SCRIPT_ARABIC,  HB_SCRIPT_BENGALI,    HB_SCRIPT_DEVANAGARI,
+                                   HB_SCRIPT_GURMUKHI,  HB_SCRIPT_MANDAIC, HB_SCRIPT_MANICHAEAN, HB_SCRIPT_MODI,
+                                   HB_SCRIPT_MONGOLIAN, HB_SCRIPT_NKO,     HB_SCRIPT_PHAGS_PA,   HB_SCRIPT_SYRIAC,
+                                   HB_SCRIPT_TIBETAN,   HB_SCRIPT_TIRHUTA};
+  return std::ranges::find(kJoining, static_cast<hb_script_t>(script)) != kJoining.end();
+}
+
 }  // namespace
 
 Result<std::unique_ptr<TextShaper>> TextShaper::create(std::vector<std::byte> font, int size_px) {
@@ -80,6 +93,15 @@ bool TextShaper::add_font(FT_Face face) {
   hb_ft_font_set_load_flags(font.shaped.get(), FT_LOAD_DEFAULT);
   fonts_.push_back(std::move(font));
   return true;
+}
+
+void TextShaper::set_size(int size_px) {
+  if (size_px == size_px_) return;
+  size_px_ = size_px;
+  for (const Font& font : fonts_) {
+    const bool has_size = FT_Set_Pixel_Sizes(font.face.get(), 0, static_cast<FT_UInt>(size_px)) == 0;
+    if (has_size) hb_ft_font_changed(font.shaped.get());
+  }
 }
 
 std::optional<std::uint32_t> TextShaper::search_font(char32_t character) {
@@ -121,7 +143,7 @@ std::vector<std::uint32_t> TextShaper::fonts_of(std::u32string_view text) {
   return fonts;
 }
 
-ShapedText TextShaper::shape(std::u32string_view given) {
+ShapedText TextShaper::shape(std::u32string_view given, float spacing_px) {
   const std::u32string text = composed(given);
   const std::vector<std::uint32_t> fonts = fonts_of(text);
   ShapedText line;
@@ -134,11 +156,15 @@ ShapedText TextShaper::shape(std::u32string_view given) {
     hb_buffer_set_direction(buffer, run.right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
     hb_buffer_set_script(buffer, static_cast<hb_script_t>(run.script));
     hb_buffer_set_language(buffer, hb_language_get_default());
-    hb_shape(fonts_[run.font].shaped.get(), buffer, nullptr, 0);
+    const float room_px = joins_letters(run.script) ? 0.0F : spacing_px;
+    // A ligature such as "fi" would be two letters without room between them.
+    hb_shape(fonts_[run.font].shaped.get(), buffer, kNoLigatures.data(), room_px > 0.0F ? kNoLigatures.size() : 0);
     unsigned count = 0;
     const hb_glyph_info_t* const glyphs = hb_buffer_get_glyph_infos(buffer, &count);
     const hb_glyph_position_t* const places = hb_buffer_get_glyph_positions(buffer, &count);
     for (unsigned k = 0; k < count; ++k) {
+      const bool is_letter = k == 0 || glyphs[k].cluster != glyphs[k - 1].cluster;
+      if (is_letter && !line.glyphs.empty()) line.width_px += room_px;
       line.glyphs.push_back({run.font, glyphs[k].codepoint, line.width_px + float(places[k].x_offset) / kFixed,
                              float(places[k].y_offset) / kFixed});
       line.width_px += float(places[k].x_advance) / kFixed;

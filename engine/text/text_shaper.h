@@ -33,18 +33,22 @@ struct ShapedText {
   float width_px = 0.0F;
 };
 
-/// Shapes lines of text in any script at one size: HarfBuzz chooses and places the glyphs, FriBidi orders them, and
+/// Shapes lines of text in any script: HarfBuzz chooses and places the glyphs, FriBidi orders them, and
 /// Fontconfig finds a font of the system for letters that the given font does not have. Fonts of the system are looked
 /// up when the first such letter comes. thread: any, but one call at a time
 class TextShaper {
  public:
-  /// `font` contains the bytes of a font file (TrueType, OpenType). It is asked first for each letter.
+  /// `font` contains the bytes of a font file (TrueType, OpenType). It is asked first for each letter. `size_px` is the
+  /// size until set_size().
   [[nodiscard]] static Result<std::unique_ptr<TextShaper>> create(std::vector<std::byte> font, int size_px);
 
+  /// Sets the size of the next lines and faces. Pictures of letters that have no other size keep theirs.
+  void set_size(int size_px);
   /// Returns the line of a text. A letter that no font has is the replacement mark of the given font. Control
-  /// characters are spaces.
-  [[nodiscard]] ShapedText shape(std::u32string_view text);
-  /// Returns the face of a font, at the shaper's size, to draw its glyphs. It lives as long as the shaper.
+  /// characters are spaces. `spacing_px` of room comes between two letters, but not between letters that their script
+  /// joins, nor between a letter and its marks.
+  [[nodiscard]] ShapedText shape(std::u32string_view text, float spacing_px = 0.0F);
+  /// Returns the face of a font, at the present size, to draw its glyphs. It lives as long as the shaper.
   [[nodiscard]] FT_FaceRec_* face(std::uint32_t font) const { return fonts_[font].face.get(); }
   /// Letters that no font has, so far.
   [[nodiscard]] const std::set<char32_t>& without_font() const { return without_font_; }

@@ -151,6 +151,34 @@ TEST_F(TextShaperTest, ControlCharactersAreSpaces) {
   EXPECT_TRUE(shaper_->without_font().empty());
 }
 
+TEST_F(TextShaperTest, SizesAreOnesOfTheSameFonts) {
+  const std::u32string text = U"Hé \u0915\u093F 中";
+  const ShapedText first = shape(text);
+  shaper_->set_size(3 * kSize_px);
+  const ShapedText large = shape(text);
+  EXPECT_EQ(indices(large), indices(first));
+  EXPECT_NEAR(large.width_px, 3.0F * first.width_px, 0.05F * large.width_px);
+  EXPECT_NEAR(float(shaper_->ascent_px()), 3.0F * 0.928F * kSize_px, 1.0F) << "rise of DejaVu Sans: 0.928 em";
+  shaper_->set_size(kSize_px);
+  EXPECT_EQ(shape(text).width_px, first.width_px);
+}
+
+TEST_F(TextShaperTest, LettersHaveRoomBetweenThemUnlessTheirScriptJoinsThem) {
+  constexpr float kRoom_px = 5.0F;
+  const auto grown_px = [this](std::u32string_view text) {
+    return shaper_->shape(text, kRoom_px).width_px - width(text);
+  };
+  EXPECT_FLOAT_EQ(grown_px(U"H"), 0.0F);
+  EXPECT_FLOAT_EQ(grown_px(U"HHHH"), 3.0F * kRoom_px);
+  EXPECT_FLOAT_EQ(grown_px(U"中文字"), 2.0F * kRoom_px);
+  EXPECT_FLOAT_EQ(grown_px(U"\u05D0\u05D1\u05D2"), 2.0F * kRoom_px) << "Hebrew";
+  EXPECT_FLOAT_EQ(grown_px(U"\u0E17\u0E35\u0E48"), 0.0F) << "marks stay with their letter";
+  EXPECT_FLOAT_EQ(grown_px(U"\u0633\u0644\u0627\u0645"), 0.0F) << "Arabic";
+  EXPECT_FLOAT_EQ(grown_px(U"\u0928\u092E\u0938\u094D\u0924\u0947"), 0.0F) << "Devanagari";
+  EXPECT_EQ(shape(U"fi").glyphs.size(), 1U) << "a ligature";
+  EXPECT_EQ(shaper_->shape(U"fi", kRoom_px).glyphs.size(), 2U);
+}
+
 TEST_F(TextShaperTest, AnEmptyTextHasNoGlyph) {
   EXPECT_TRUE(shape(U"").glyphs.empty());
   EXPECT_EQ(width(U""), 0.0F);
