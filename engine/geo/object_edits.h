@@ -28,6 +28,7 @@ struct ObjectChange {
   std::optional<ObjectColor> fill = {};   ///< fill colour of areas
   std::optional<float> size_px = {};      ///< size of markers, width of lines and strokes; positive
   std::optional<Angle> heading = {};      ///< heading of models and icons
+  std::optional<LabelLook> look = {};     ///< look of labels, but their colour
 };
 
 /// Lets the line of a feature go on: places come to its end, and go from its start, as for the track of something that

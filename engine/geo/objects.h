@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -118,7 +120,46 @@ struct PolygonObject {
   double extrude_m = 0.0;  ///< height of the walls, metres; not over 0: a flat area
 };
 
-/// A text, UTF-8, to the right of the marker or sphere at a place.
+/// The part of a label's text that is at the marker, in the words of MapLibre's text-anchor. A text that is `left`
+/// stands right of the marker, `top` below it, and `center` lies over it.
+enum class TextAnchor : std::uint8_t {
+  center,
+  left,
+  right,
+  top,
+  bottom,
+  top_left,
+  top_right,
+  bottom_left,
+  bottom_right,
+};
+/// Returns the part of a text's width and height that an anchor names, from the upper left.
+[[nodiscard]] inline glm::vec2 part_at(TextAnchor anchor) {
+  constexpr std::array<glm::vec2, 9> kParts{{{0.5F, 0.5F},
+                                             {0.0F, 0.5F},
+                                             {1.0F, 0.5F},
+                                             {0.5F, 0.0F},
+                                             {0.5F, 1.0F},
+                                             {0.0F, 0.0F},
+                                             {1.0F, 0.0F},
+                                             {0.0F, 1.0F},
+                                             {1.0F, 1.0F}}};
+  return kParts[static_cast<std::size_t>(anchor)];
+}
+
+inline constexpr float kLeastText_px = 6.0F, kMostText_px = 64.0F, kMostHalo_px = 8.0F;
+
+/// The look of a label's text beside its colour.
+struct LabelLook {
+  float text_px = 15.0F;           ///< size of the font, kLeastText_px to kMostText_px; drawn at whole pixels
+  ObjectColor halo{0, 0, 0, 179};  ///< colour behind the edges of the letters; its alpha is drawn at whole percents
+  float halo_px = 1.4F;            ///< reach of the halo past the letters, 0 (none) to kMostHalo_px; in 0.2 px steps
+  TextAnchor anchor = TextAnchor::left;  ///< near the limb of a globe, texts beside a marker turn to its other side
+  float letter_spacing_em = 0.0F;        ///< 0 to 1 of the font's size; scripts with joined letters keep 0
+  bool operator==(const LabelLook&) const = default;
+};
+
+/// A text, UTF-8, beside the marker or sphere at a place.
 struct LabelObject {
   std::string text = {};
   Geodetic place = {};
@@ -130,6 +171,7 @@ struct LabelObject {
   bool through_surface = false;
   ObjectIdentity of = {};
   HeightMode heights = HeightMode::absolute;
+  LabelLook look = {};
 };
 
 /// A vertex of a mesh in the frame of the model: metres, y up, z forward, x to the left (glTF 2.0). All finite.

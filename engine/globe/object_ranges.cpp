@@ -67,6 +67,15 @@ Status check_places(const std::vector<Geodetic>& places) {
   return Done{};
 }
 
+Status check_look(const LabelLook& look) {
+  return RangeCheck()
+      .in("the size of its text", look.text_px, kLeastText_px, kMostText_px, " px")
+      .in("the width of its halo", look.halo_px, 0.0, kMostHalo_px, " px")
+      .known("its anchor", look.anchor, TextAnchor::bottom_right)
+      .in("its letter spacing", look.letter_spacing_em, 0.0, 1.0, " em")
+      .result();
+}
+
 /// Checks one object after the other. Remembers the models and icons that it has checked.
 class Checker {
  public:
@@ -110,6 +119,7 @@ class Checker {
         .in("its size", label.size_px, 0.0, kMostSize_px, " px")
         .in("its radius", label.radius_m, 0.0, kMostHeight_m, " m")
         .that(!std::isnan(label.priority), "its priority is nan; give a number")
+        .part("its look", check_look(label.look))
         .result();
   }
   Status operator()(const MeshObject& mesh) {
@@ -159,6 +169,7 @@ Status check_values(const ObjectChange& change) {
   return RangeCheck()
       .above("a size", change.size_px.value_or(1.0F), 0.0, kMostSize_px, " px")
       .finite("the heading of a change", change.heading.value_or(Angle{}).rad())
+      .part("the look of a change", check_look(change.look.value_or(LabelLook{})))
       .result();
 }
 

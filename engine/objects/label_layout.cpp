@@ -1,6 +1,7 @@
 #include "objects/label_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/code_points.h"
@@ -9,6 +10,9 @@ namespace terrella {
 namespace {
 
 constexpr int kCell_px = 64;
+constexpr float kMarkerGap_px = 4.0F;  // gap between a marker and the text beside it
+constexpr float kLineGap_px = 1.0F;    // the same over or under it, where the height of a line adds room to the letters
+constexpr float kDiagonal = 0.7071068F;
 
 }  // namespace
 
@@ -18,6 +22,12 @@ std::u32string label_text(std::string_view utf8) {
   text.resize(kMostLabelCharacters);
   text.back() = U'…';
   return text;
+}
+
+TextWay text_way(TextAnchor anchor, float reach_px, float half_height_px) {
+  const glm::vec2 side = 1.0F - 2.0F * part_at(anchor);
+  const float beside_px = std::round(side.x != 0.0F && side.y != 0.0F ? kDiagonal * reach_px : reach_px);
+  return {side.x * (beside_px + kMarkerGap_px), side.x, side.y * (beside_px + kLineGap_px + half_height_px)};
 }
 
 LabelRoom::LabelRoom(Viewport picture)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geo/camera.h"
+#include "geo/objects.h"
 
 namespace terrella {
 
@@ -19,6 +20,16 @@ inline constexpr std::size_t kMostLabelCharacters = 96;
 struct LabelBox {
   glm::vec2 low_px, high_px;
 };
+
+/// The way from a place to its text, pixels.
+struct TextWay {
+  float near_px = 0.0F;  ///< right of the place: the nearer end of the text, or the middle of a centred one
+  float side = 1.0F;     ///< 1 if the text goes on to the right from there, -1 to the left, 0 if it is centred
+  float down_px = 0.0F;  ///< below the place: the middle of the line
+};
+/// Returns the way to a text that keeps a gap to a marker. The marker reaches `reach_px` around its place, the line
+/// `half_height_px` over and under its middle. thread: any
+[[nodiscard]] TextWay text_way(TextAnchor anchor, float reach_px, float half_height_px);
 
 /// The space that labels occupy in a picture. The first label to claim a space gets it. thread: any, but one call at a
 /// time

@@ -95,6 +95,7 @@ void LayerObjects::change_part(PartRef part, const ObjectChange& change) {
     KeptLabel& label = labels_[part.index];
     label.object.color = change.label.value_or(change.color.value_or(label.object.color));
     label.object.size_px = change.size_px.value_or(label.object.size_px);
+    label.object.look = change.look.value_or(label.object.look);
   }
 }
 

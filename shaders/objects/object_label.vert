@@ -4,17 +4,19 @@ layout(location = 1) in vec3 place_low_ecef;
 layout(location = 2) in vec2 offset_px;      // offset of the lower left corner
 layout(location = 3) in vec4 atlas_px;       // upper left corner, width and height
 layout(location = 4) in vec4 color;
-layout(location = 5) in float depth_share;   // share of the place's depth at which the text lies
+layout(location = 5) in vec2 depth_reach;    // share of the place's depth at which the text lies; its reach, pixels
+layout(location = 6) in vec4 halo;           // colour and strength
 
 out vec2 texel;
 flat out vec4 text_color;
+flat out vec4 halo_color;
 flat out float pull;
-
-const float kReach_px = 40.0;                // labels are pulled towards the eye like markers, for the height of a text
 
 void main() {
   text_color = color;
-  pull = depth_share * (1.0 - (depth_bias > 0.0 ? depth_bias + min(kReach_px / focal_px(), 0.5) : 0.0));
+  halo_color = halo;
+  // Labels are pulled towards the eye like markers, for the height of a text.
+  pull = depth_reach.x * (1.0 - (depth_bias > 0.0 ? depth_bias + min(depth_reach.y / focal_px(), 0.5) : 0.0));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   texel = atlas_px.xy + vec2(corner.x, 1.0 - corner.y) * atlas_px.zw;
   vec4 clip = clip_of(view_of(place_high_ecef, place_low_ecef), pull);

@@ -16,7 +16,10 @@ using nlohmann::json;
 ObjectChange change_of(const FeatureParts& feature, const ObjectStyle& style) {
   ObjectChange change{.id = feature.of.id};
   if (feature.has_area) change.fill = style.polygon.fill;
-  if (feature.has_label) change.label = style.label.color;
+  if (feature.has_label) {
+    change.label = style.label.color;
+    change.look = style.label.look;
+  }
   change.color = feature.has_icon    ? style.point.icon.tint
                  : feature.has_point ? style.point.color
                  : feature.has_line  ? style.line.color

@@ -46,10 +46,10 @@ struct FeatureParts {
 /// Returns the features of a scene that have an id, in ascending order of ids. thread: any
 [[nodiscard]] std::vector<FeatureParts> features_of(const ObjectScene& scene);
 
-/// Returns the edits that give features another style: colours, opacities, sizes of markers, widths of lines and texts
-/// of labels. Heights, icons, dashes and arrows stay, and labels of features that had none do not come. `values[k]`
-/// is the field "value" of the feature with the id k + 1, none if it is not finite. Faulty properties have their
-/// defaults. The colour of a feature of several kinds is that of its point, or else of its line. thread: any
+/// Returns the edits that give features another style: colours, opacities, sizes of markers, widths of lines, texts and
+/// looks of labels. Heights, icons, dashes and arrows stay, and labels of features that had none do not come.
+/// `values[k]` is the field "value" of the feature with the id k + 1, none if it is not finite. Faulty properties have
+/// their defaults. The colour of a feature of several kinds is that of its point, or else of its line. thread: any
 [[nodiscard]] ObjectEdits restyled(std::span<const FeatureParts> features, const FeatureStyle& style,
                                    std::span<const double> values = {});
 

@@ -116,23 +116,17 @@ class StyleReader {
     return text(name);
   }
 
-  /// A place of an icon, in the words of MapLibre's icon-anchor.
-  std::optional<glm::vec2> anchor() const {
-    const json* value = find("icon-anchor");
+  /// A part of an icon or a text, in the words of MapLibre's anchors.
+  std::optional<TextAnchor> anchor(const char* property) const {
+    const json* value = find(property);
     if (value == nullptr) return std::nullopt;
-    constexpr std::array<std::pair<const char*, glm::vec2>, 9> kAnchors{{{"center", {0.5F, 0.5F}},
-                                                                         {"left", {0.0F, 0.5F}},
-                                                                         {"right", {1.0F, 0.5F}},
-                                                                         {"top", {0.5F, 0.0F}},
-                                                                         {"bottom", {0.5F, 1.0F}},
-                                                                         {"top-left", {0.0F, 0.0F}},
-                                                                         {"top-right", {1.0F, 0.0F}},
-                                                                         {"bottom-left", {0.0F, 1.0F}},
-                                                                         {"bottom-right", {1.0F, 1.0F}}}};
-    for (const auto& [name, place] : kAnchors) {
-      if (*value == name) return place;
+    constexpr std::array<const char*, 9> kAnchors = {"center",   "left",      "right",       "top",         "bottom",
+                                                     "top-left", "top-right", "bottom-left", "bottom-right"};
+    for (std::size_t k = 0; k < kAnchors.size(); ++k) {
+      if (*value == kAnchors[k]) return TextAnchor(k);
     }
-    complain_("\"icon-anchor\" must be center, left, right, top, bottom, or a corner such as bottom-left");
+    complain_(
+        fmt::format("\"{}\" must be center, left, right, top, bottom, or a corner such as bottom-left", property));
     return std::nullopt;
   }
 
@@ -185,6 +179,21 @@ void read_line(const StyleReader& reader, double most_px, LineObject& line) {
   std::tie(line.arrow_at_start, line.arrow_at_end) = reader.arrows();
 }
 
+/// Reads the look of a text. A halo in a colour that is given is opaque.
+void read_text(const StyleReader& reader, LabelObject& label) {
+  set_color(label.color, reader.color("text-color"));
+  LabelLook& look = label.look;
+  if (const auto size = reader.number("text-size", kLeastText_px, kMostText_px)) {
+    look.text_px = static_cast<float>(*size);
+  }
+  look.halo = reader.color("text-halo-color").value_or(look.halo);
+  if (const auto width = reader.number("text-halo-width", 0.0, kMostHalo_px)) look.halo_px = static_cast<float>(*width);
+  look.anchor = reader.anchor("text-anchor").value_or(look.anchor);
+  if (const auto spacing = reader.number("text-letter-spacing", 0.0, 1.0)) {
+    look.letter_spacing_em = static_cast<float>(*spacing);
+  }
+}
+
 /// Reads an icon. Other programs may use its properties differently without one.
 void read_icon(const StyleReader& reader, ObjectStyle& style) {
   constexpr double kMostSize_px = 1024.0;
@@ -192,7 +201,7 @@ void read_icon(const StyleReader& reader, ObjectStyle& style) {
   if (style.icon.empty()) return;
   PointIcon& icon = style.point.icon;
   if (const auto size = reader.number("icon-size", 1.0, kMostSize_px)) style.icon_size_px = static_cast<float>(*size);
-  icon.anchor = reader.anchor().value_or(icon.anchor);
+  if (const auto anchor = reader.anchor("icon-anchor")) icon.anchor = part_at(*anchor);
   icon.tint = reader.color("icon-color").value_or(icon.tint);
   if (const auto turn = reader.number("icon-rotate", -360.0, 360.0)) icon.heading = Angle::degrees(*turn);
   if (const auto heading = reader.number("heading_deg", -360.0, 360.0)) {
@@ -266,6 +275,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   if (style.label.text.empty()) style.label.text = reader.text("name");
   if (style.label.text.empty()) style.label.text = symbol;
   if (const auto priority = reader.number("label-priority", -1e9, 1e9)) style.label.priority = *priority;
+  read_text(reader, style.label);
   return style;
 }
 

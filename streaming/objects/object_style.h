@@ -15,7 +15,7 @@ struct ObjectStyle {
   PointObject point;                  ///< all but its place
   LineObject line;                    ///< all but its places
   PolygonObject polygon;              ///< all but its rings
-  LabelObject label;                  ///< text, empty for no label, and priority
+  LabelObject label;                  ///< text, empty for no label, colour, priority and look
   std::string icon;                   ///< file or data: URI of a marker's icon; empty: none
   std::optional<float> icon_size_px;  ///< none: the picture's own size
   std::string model;                  ///< file of a point's model; empty: none

@@ -42,6 +42,12 @@ constexpr std::array kProperties = {"altitude-mode",
                                     "stroke-width",
                                     "stroke-dasharray",
                                     "stroke-opacity",
+                                    "text-anchor",
+                                    "text-color",
+                                    "text-halo-color",
+                                    "text-halo-width",
+                                    "text-letter-spacing",
+                                    "text-size",
                                     "through_surface",
                                     "title"};
 

@@ -56,6 +56,16 @@ TEST_F(ObjectRanges, OfObjects) {
       {"label size_px", {0.0, 1e6}, {-1.0, kNoNumberAtAll}, [](S& s, double v) { s.labels[0].size_px = float(v); }},
       {"label radius_m", {0.0, 1e12}, {-1.0, kNoNumberAtAll}, [](S& s, double v) { s.labels[0].radius_m = v; }},
       {"priority", {-kInfinite, kInfinite}, {kNoNumberAtAll}, [](S& s, double v) { s.labels[0].priority = v; }},
+      {"text_px",
+       {6.0, 64.0},
+       {5.9, 64.1, kNoNumberAtAll},
+       [](S& s, double v) { s.labels[0].look.text_px = float(v); }},
+      {"halo_px", {0.0, 8.0}, {-0.1, 8.1, kNoNumberAtAll}, [](S& s, double v) { s.labels[0].look.halo_px = float(v); }},
+      {"anchor", {0, 8}, {9}, [](S& s, double v) { s.labels[0].look.anchor = TextAnchor(int(v)); }},
+      {"letter_spacing_em",
+       {0.0, 1.0},
+       {-0.1, 1.1, kNoNumberAtAll},
+       [](S& s, double v) { s.labels[0].look.letter_spacing_em = float(v); }},
       {"scale", {1e-3, 1e12}, {-1.0, 0.0, kNoNumberAtAll, kInfinite}, [](S& s, double v) { s.meshes[0].scale = v; }},
       {"mesh heading", {720.0}, {kNoNumberAtAll}, [](S& s, double v) { s.meshes[0].heading = Angle::degrees(v); }},
       {"indices", {0, 2}, {3, 4e9}, [&](S& s, double v) { s.meshes[0].model = model(v, 1.0, 4); }},
@@ -102,7 +112,8 @@ TEST_F(ObjectRanges, OfEdits) {
         {0.1, 1e6},
         {-1.0, 0.0, 1.1e6, kNoNumberAtAll},
         [](ObjectChange& c, double v) { c.size_px = float(v); }},
-       {"heading", {720.0}, {kNoNumberAtAll}, [](ObjectChange& c, double v) { c.heading = Angle::degrees(v); }}},
+       {"heading", {720.0}, {kNoNumberAtAll}, [](ObjectChange& c, double v) { c.heading = Angle::degrees(v); }},
+       {"text_px", {64.0}, {65.0}, [](ObjectChange& c, double v) { c.look = LabelLook{.text_px = float(v)}; }}},
       "Globe::edit_objects: ", [&](const ObjectChange& c) { return planet->edit_objects(layer, {.changes = {c}}); });
 }
 

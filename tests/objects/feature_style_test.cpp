@@ -164,6 +164,30 @@ TEST(FeatureStyle, AnotherStyleByEditsIsThatOfReadingAgain) {
   EXPECT_EQ(edits.texts[0].text, "Bern");
 }
 
+TEST(FeatureStyle, TextsHaveSizesColoursHalosAnchorsAndSpacing) {
+  const FeatureStyle style = style_of(R"({"text-size":["step",["get","pop"],10,60,31.5],"text-color":"#123456",
+    "text-halo-color":"#fff","text-halo-width":2.5,"text-anchor":"bottom-right","text-letter-spacing":0.2})");
+  const ObjectFile file = read(style);
+  EXPECT_TRUE(file.complaints.empty());
+  const LabelObject& label = file.scene.labels.at(0);
+  EXPECT_EQ(label.color, (ObjectColor{0x12, 0x34, 0x56}));
+  EXPECT_EQ(label.look, (LabelLook{31.5F, {255, 255, 255}, 2.5F, TextAnchor::bottom_right, 0.2F}));
+  const ObjectFile plain = read({});
+  EXPECT_EQ(plain.scene.labels.at(0).look, LabelLook{});
+  const ObjectChange change = restyled(features_of(plain.scene), style).changes.at(2);
+  EXPECT_EQ(change.look, label.look);
+  EXPECT_EQ(change.label, label.color);
+  const ObjectFile faulty = read(style_of(R"({"text-size":5,"text-color":"ink","text-halo-color":1,"text-halo-width":9,
+    "text-anchor":"middle","text-letter-spacing":-0.1})"));
+  EXPECT_EQ(faulty.scene.labels.at(0).look, LabelLook{});
+  for (const char* cure :
+       {"\"text-size\" must be a number from 6 to 64", "\"text-color\" is not a colour",
+        "\"text-halo-color\" is not a colour", "\"text-halo-width\" must be a number from 0 to 8",
+        "\"text-anchor\" must be center, left", "\"text-letter-spacing\" must be a number from 0 to 1"}) {
+    EXPECT_THAT(faulty.complaints, testing::Contains(HasSubstr(cure)));
+  }
+}
+
 TEST(FeatureStyle, ValuesBelongToTheFeaturesOfTheirNumbers) {
   const FeatureStyle style = style_of(R"({"fill":["interpolate",["linear"],["get","value"],0,"#000000",1,"#ffffff"]})");
   const std::vector<double> values = {0.2, 1.0, 0.4, 0.0, std::numeric_limits<double>::quiet_NaN()};

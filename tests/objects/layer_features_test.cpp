@@ -27,10 +27,10 @@ const std::string kLine = R"({"type":"LineString","coordinates":[[1,2],[3,4]]})"
 const std::string kArea = R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,0]]]})";
 
 TEST(LayerFeatures, KeepTheColoursAndSizesOfEachKind) {
-  const LayerFeatures all =
-      layer_features(scene_of(feature(kPoint, R"({"marker-color":"#010203","marker-size":20,"title":"t"})") + "," +
-                              feature(kLine, R"({"stroke":"#040506","stroke-width":7,"stroke-opacity":0.2})") + "," +
-                              feature(kArea, R"({"fill":"#070809","fill-opacity":1,"stroke":"#0a0b0c"})")));
+  const LayerFeatures all = layer_features(
+      scene_of(feature(kPoint, R"({"marker-color":"#010203","marker-size":20,"title":"t","text-size":20})") + "," +
+               feature(kLine, R"({"stroke":"#040506","stroke-width":7,"stroke-opacity":0.2})") + "," +
+               feature(kArea, R"({"fill":"#070809","fill-opacity":1,"stroke":"#0a0b0c"})")));
   ASSERT_EQ(all.parts.size(), 3U);
   ASSERT_EQ(all.own.changes.size(), 3U);
   const ObjectChange &point = all.own.changes[0], &line = all.own.changes[1], &area = all.own.changes[2];
@@ -38,6 +38,7 @@ TEST(LayerFeatures, KeepTheColoursAndSizesOfEachKind) {
   EXPECT_EQ(point.color, (ObjectColor{1, 2, 3}));
   EXPECT_EQ(point.size_px, 20.0F);
   EXPECT_EQ(point.label, (ObjectColor{255, 255, 255}));
+  EXPECT_EQ(point.look, LabelLook{.text_px = 20.0F});
   EXPECT_EQ(line.color, (ObjectColor{4, 5, 6, 51}));
   EXPECT_EQ(line.size_px, 7.0F);
   EXPECT_FALSE(line.fill);

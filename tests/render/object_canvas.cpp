@@ -69,8 +69,7 @@ ObjectPicture ObjectCanvas::draw(const ObjectScene& scene, const View& view) {
   pass_->set_layers({{&objects, &buffers}});
   EXPECT_TRUE(pass_->prepare());
   pass_->upload();
-  ShownLabels shown;
-  pass_->place_labels(view, label_sight_, shown);
+  pass_->place_labels(view, label_sight_, shown_labels_);
   draw_calls_ = 0;
   for (const ObjectPart part : {ObjectPart::underground, ObjectPart::above_ground}) {
     draw_calls_ += pass_->draw(part, frame, size_, state, ObjectChoice::all, hiding_radius_m_);

@@ -51,7 +51,8 @@ class ObjectCanvas : public GlContextTest {
 
   std::vector<std::byte> font_;  ///< for use()
   LabelSight label_sight_;
-  int draw_calls_ = 0;  ///< draw calls of the last picture
+  ShownLabels shown_labels_;  ///< labels of the last picture
+  int draw_calls_ = 0;        ///< draw calls of the last picture
   bool lit_ = false;
   double hiding_radius_m_ = 0.0;
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "render/gl/storage.h"
@@ -13,39 +15,52 @@
 namespace terrella {
 namespace {
 
-constexpr int kHalo_px = 2;
-constexpr float kHaloReach_px = 2.4F;
-
-/// Returns the strength of the halo: that of the strongest nearby pixel, weakened by its distance.
-std::uint8_t halo_at(const FT_Bitmap& ink, int x, int y) {
-  float strongest = 0.0F;
-  for (int dy = -kHalo_px; dy <= kHalo_px; ++dy) {
-    for (int dx = -kHalo_px; dx <= kHalo_px; ++dx) {
-      const int px = x + dx, py = y + dy;
-      if (px < 0 || py < 0 || px >= int(ink.width) || py >= int(ink.rows)) continue;
-      const float part = std::clamp(kHaloReach_px - std::hypot(float(dx), float(dy)), 0.0F, 1.0F);
-      strongest = std::max(strongest, part * float(ink.buffer[py * ink.pitch + px]));
+/// Returns the strength of the halo for each texel of a picture that reaches `margin` pixels past the ink: that of the
+/// strongest nearby pixel of ink, weakened over the last pixel of its reach.
+std::vector<float> halo_of(const FT_Bitmap& ink, int margin, const GlyphLook& look) {
+  const int wide = int(ink.width) + 2 * margin, high = int(ink.rows) + 2 * margin;
+  std::vector<float> halo(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+  if (look.halo_fifths == 0) return halo;
+  const float reach_px = float(5 + look.halo_fifths) / 5.0F;
+  for (int dy = -margin; dy <= margin; ++dy) {
+    for (int dx = -margin; dx <= margin; ++dx) {
+      const float part = std::clamp(reach_px - std::hypot(float(dx), float(dy)), 0.0F, 1.0F);
+      if (part <= 0.0F) continue;
+      for (int y = 0; y < int(ink.rows); ++y) {
+        const std::uint8_t* const from = ink.buffer + static_cast<std::ptrdiff_t>(y) * ink.pitch;
+        float* const to = halo.data() + static_cast<std::ptrdiff_t>(y + margin + dy) * wide + margin + dx;
+        for (int x = 0; x < int(ink.width); ++x) to[x] = std::max(to[x], part * float(from[x]));
+      }
     }
   }
-  return static_cast<std::uint8_t>(strongest);
+  return halo;
 }
 
 }  // namespace
 
+int halo_margin_px(const GlyphLook& look) { return (look.halo_fifths + 4) / 5; }
+
 Result<std::unique_ptr<GlyphAtlas>> GlyphAtlas::create() {
   std::unique_ptr<GlyphAtlas> atlas(new GlyphAtlas);
-  atlas->texture_ = gl::make_texture(GL_TEXTURE_2D);
-  glTextureStorage2D(atlas->texture_.name(), 1, GL_RG8, kSide_px, kSide_px);
-  if (!gl::has_storage(atlas->texture_)) return Error{"the driver has no memory for the letters of labels"};
-  glTextureParameteri(atlas->texture_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(atlas->texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  if (!atlas->make_texture(kSide_px)) return Error{"the driver has no memory for the letters of labels"};
   return atlas;
 }
 
-Glyph GlyphAtlas::glyph(const TextShaper& shaper, const ShapedGlyph& shaped) {
-  const auto [found, is_new] = glyphs_.try_emplace(std::uint64_t{shaped.font} << 32U | shaped.index);
+bool GlyphAtlas::make_texture(int side_px) {
+  gl::Texture texture = gl::make_texture(GL_TEXTURE_2D);
+  glTextureStorage2D(texture.name(), 1, GL_RG8, side_px, side_px);
+  if (!gl::has_storage(texture)) return false;
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  texture_ = std::move(texture);
+  side_px_ = side_px;
+  return true;
+}
+
+Glyph GlyphAtlas::glyph(const TextShaper& shaper, const ShapedGlyph& shaped, const GlyphLook& look) {
+  const auto [found, is_new] = glyphs_.try_emplace({shaped.font, shaped.index, look});
   const FT_Face face = shaper.face(shaped.font);
-  if (is_new && FT_Load_Glyph(face, shaped.index, FT_LOAD_RENDER) == 0) found->second = draw(*face);
+  if (is_new && FT_Load_Glyph(face, shaped.index, FT_LOAD_RENDER) == 0) found->second = draw(*face, look);
   return found->second;
 }
 
@@ -55,24 +70,36 @@ void GlyphAtlas::clear() {
   full_ = false;
 }
 
-Glyph GlyphAtlas::draw(const FT_FaceRec_& face) {
+bool GlyphAtlas::grow() {
+  GLint most_px = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+  const int side_px = 2 * side_px_;
+  if (side_px > std::min(kMostSide_px, int(most_px)) || !make_texture(side_px)) return false;
+  clear();
+  return true;
+}
+
+Glyph GlyphAtlas::draw(const FT_FaceRec_& face, const GlyphLook& look) {
   Glyph glyph;
   const FT_Bitmap& ink = face.glyph->bitmap;
   if (ink.width == 0 || ink.rows == 0 || ink.pixel_mode != FT_PIXEL_MODE_GRAY) return glyph;
-  glyph.width = static_cast<short>(ink.width + 2 * kHalo_px);
-  glyph.height = static_cast<short>(ink.rows + 2 * kHalo_px);
-  glyph.left = static_cast<short>(face.glyph->bitmap_left - kHalo_px);
-  glyph.top = static_cast<short>(face.glyph->bitmap_top + kHalo_px);
+  const int margin = halo_margin_px(look);
+  glyph.width = static_cast<short>(int(ink.width) + 2 * margin);
+  glyph.height = static_cast<short>(int(ink.rows) + 2 * margin);
+  glyph.left = static_cast<short>(face.glyph->bitmap_left - margin);
+  glyph.top = static_cast<short>(face.glyph->bitmap_top + margin);
   if (!find_room(glyph)) {
     full_ = true;
     return {};
   }
+  const std::vector<float> halo = halo_of(ink, margin, look);
   std::vector<std::uint8_t> texels;
-  for (int y = -kHalo_px; y < int(ink.rows) + kHalo_px; ++y) {
-    for (int x = -kHalo_px; x < int(ink.width) + kHalo_px; ++x) {
+  texels.reserve(2 * halo.size());
+  for (int y = -margin; y < int(ink.rows) + margin; ++y) {
+    for (int x = -margin; x < int(ink.width) + margin; ++x) {
       const bool within = x >= 0 && y >= 0 && x < int(ink.width) && y < int(ink.rows);
       texels.push_back(within ? ink.buffer[y * ink.pitch + x] : std::uint8_t{0});
-      texels.push_back(halo_at(ink, x, y));
+      texels.push_back(static_cast<std::uint8_t>(halo[texels.size() / 2]));
     }
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -82,11 +109,11 @@ Glyph GlyphAtlas::draw(const FT_FaceRec_& face) {
 }
 
 bool GlyphAtlas::find_room(Glyph& glyph) {
-  if (row_x_ + glyph.width > kSide_px) {
+  if (row_x_ + glyph.width > side_px_) {
     row_y_ += row_height_;
     row_x_ = row_height_ = 0;
   }
-  if (glyph.width > kSide_px || row_y_ + glyph.height > kSide_px) return false;
+  if (glyph.width > side_px_ || row_y_ + glyph.height > side_px_) return false;
   glyph.x = static_cast<short>(row_x_);
   glyph.y = static_cast<short>(row_y_);
   row_x_ += glyph.width;

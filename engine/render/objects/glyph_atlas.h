@@ -1,8 +1,10 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <unordered_map>
+#include <tuple>
 
 #include "base/result.h"
 #include "render/gl/gl_handle.h"
@@ -16,28 +18,45 @@ struct Glyph {
   short left = 0, top = 0;  ///< upper left corner, right of and above the origin
 };
 
-/// The glyphs of fonts at one size. FreeType draws each into a texture when it is first requested: red is the covered
+/// Size and halo of glyphs. Each pair of them has its own pictures.
+struct GlyphLook {
+  int text_px = 0;      ///< size of the font
+  int halo_fifths = 0;  ///< reach of the halo past the ink, fifths of a pixel; 0: none
+  auto operator<=>(const GlyphLook&) const = default;
+};
+
+/// Returns the pixels by which a glyph's picture reaches past its ink, for the halo.
+[[nodiscard]] int halo_margin_px(const GlyphLook& look);
+
+/// The glyphs of fonts at some sizes. FreeType draws each into a texture when it is first requested: red is the covered
 /// fraction of the pixel, green the halo. thread: main
 class GlyphAtlas {
  public:
-  static constexpr int kSide_px = 1024;
+  /// Sides of the texture: at first, and at most. One of 4096 px has room for the letters of any picture up to its
+  /// size.
+  static constexpr int kSide_px = 1024, kMostSide_px = 4096;
 
   [[nodiscard]] static Result<std::unique_ptr<GlyphAtlas>> create();
 
-  /// Returns the picture of a glyph: an empty one if the atlas is full, or if the glyph has no ink.
-  [[nodiscard]] Glyph glyph(const TextShaper& shaper, const ShapedGlyph& shaped);
+  /// Returns the picture of a glyph: an empty one if the atlas is full, or if the glyph has no ink. The shaper has the
+  /// size of the look.
+  [[nodiscard]] Glyph glyph(const TextShaper& shaper, const ShapedGlyph& shaped, const GlyphLook& look);
   /// True once a glyph had no room. The atlas then keeps what it has until clear().
   [[nodiscard]] bool is_full() const { return full_; }
   void clear();
+  /// Makes the empty atlas twice as wide and high. False if the atlas is as large as it may be.
+  [[nodiscard]] bool grow();
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
 
  private:
   GlyphAtlas() = default;
-  [[nodiscard]] Glyph draw(const FT_FaceRec_& face);
+  [[nodiscard]] bool make_texture(int side_px);
+  [[nodiscard]] Glyph draw(const FT_FaceRec_& face, const GlyphLook& look);
   bool find_room(Glyph& glyph);
 
   gl::Texture texture_;
-  std::unordered_map<std::uint64_t, Glyph> glyphs_;  ///< by font and index
+  int side_px_ = 0;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, GlyphLook>, Glyph> glyphs_;  ///< by font and index
   int row_x_ = 0, row_y_ = 0, row_height_ = 0;
   bool full_ = false;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <iterator>
 
 #include "geo/split_position.h"
@@ -13,8 +14,8 @@
 namespace terrella {
 namespace {
 
-constexpr int kText_px = 15;
-constexpr float kGap_px = 4.0F;             // gap between a marker and its text
+constexpr int kFirstText_px = 15;
+constexpr float kLeastReach_px = 40.0F;     // reach of a text, up or down, for which labels are pulled towards the eye
 constexpr float kMargin_px = 2.0F;          // margin around a text that stays free
 constexpr std::size_t kMostLines = 10'000;  // texts that are kept
 constexpr float kLeastShare = 0.5F;         // least share of a place's depth at which its text lies
@@ -36,6 +37,12 @@ float share_before_ground(const View& view, const Ellipsoid& planet, const glm::
   return std::max(static_cast<float>(share), kLeastShare);
 }
 
+/// Returns colour and strength of a halo. Its alpha counts as a whole percent.
+glm::vec4 halo_color(const ObjectColor& halo) {
+  const float percent = std::round(float(halo.alpha) / 2.55F);
+  return {float(halo.red) / 255.0F, float(halo.green) / 255.0F, float(halo.blue) / 255.0F, percent / 100.0F};
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const {
@@ -52,9 +59,13 @@ std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2
 
 Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
   std::unique_ptr<LabelPass> pass(new LabelPass);
-  auto shaper = TextShaper::create(std::move(font), kText_px);
+  auto shaper = TextShaper::create(std::move(font), kFirstText_px);
   if (!shaper) return shaper.error();
   pass->shaper_ = std::move(*shaper);
+  for (std::size_t size_px = std::size_t(kLeastText_px); size_px < pass->half_heights_px_.size(); ++size_px) {
+    pass->shaper_->set_size(static_cast<int>(size_px));
+    pass->half_heights_px_[size_px] = 0.5F * float(pass->shaper_->ascent_px() + pass->shaper_->descent_px());
+  }
   auto atlas = GlyphAtlas::create();
   if (!atlas) return atlas.error();
   pass->atlas_ = std::move(*atlas);
@@ -74,7 +85,8 @@ void LabelPass::set_up_array() {
   gl::float_attribute(array, 0, 0, 3, offsetof(Character, high_m));
   gl::float_attribute(array, 1, 0, 3, offsetof(Character, low_m));
   gl::float_attribute(array, 2, 0, 2, offsetof(Character, offset_px));
-  gl::float_attribute(array, 5, 0, 1, offsetof(Character, depth_share));
+  gl::float_attribute(array, 5, 0, 2, offsetof(Character, depth_reach));
+  gl::float_attribute(array, 6, 0, 4, offsetof(Character, halo));
   glEnableVertexArrayAttrib(array, 3);
   glVertexArrayAttribFormat(array, 3, 4, GL_SHORT, GL_FALSE, offsetof(Character, atlas_px));
   glVertexArrayAttribBinding(array, 3, 0);
@@ -104,16 +116,33 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
   order_.resize(std::min(order_.size(), kMostLabels));
 }
 
-const LabelPass::Line& LabelPass::line_of(const std::u32string& text) {
-  const auto [found, is_new] = lines_.try_emplace(text);
+LabelPass::LineLook LabelPass::line_look(const LabelLook& look) {
+  constexpr float kFixed = 64.0F;
+  const auto text_px = static_cast<int>(std::lround(look.text_px));
+  const bool has_halo = look.halo.alpha > 0;
+  return {{text_px, has_halo ? static_cast<int>(std::lround(5.0F * look.halo_px)) : 0},
+          static_cast<int>(std::lround(kFixed * look.letter_spacing_em * float(text_px)))};
+}
+
+const LabelPass::Line& LabelPass::line_of(const std::u32string& text, const LineLook& look) {
+  const auto [found, is_new] = lines_[look].try_emplace(text);
   Line& line = found->second;
   if (!is_new) return line;
-  const ShapedText shaped = shaper_->shape(text);
+  ++line_count_;
+  shaper_->set_size(look.glyphs.text_px);
+  const ShapedText shaped = shaper_->shape(text, float(look.spacing_64ths) / 64.0F);
   line.width_px = shaped.width_px;
   for (const ShapedGlyph& glyph : shaped.glyphs) {
-    line.glyphs.emplace_back(atlas_->glyph(*shaper_, glyph), glm::vec2(glyph.x_px, glyph.y_px));
+    line.glyphs.emplace_back(atlas_->glyph(*shaper_, glyph, look.glyphs), glm::vec2(glyph.x_px, glyph.y_px));
   }
+  line.is_whole = !atlas_->is_full();
   return line;
+}
+
+void LabelPass::forget_lines() {
+  lines_.clear();
+  line_count_ = 0;
+  atlas_->clear();
 }
 
 bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSight& sight) {
@@ -123,46 +152,15 @@ bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSi
   return !is_behind(label.place_m, view.eye.xyz_m, sight.hiding_half_axes_m);
 }
 
+// If the atlas is full of the letters of earlier frames, those of this frame get all of it, then a larger one.
 void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers,
                       ShownLabels& shown) {
   merge(layers);
-  if (atlas_->is_full() || lines_.size() > kMostLines) {
-    lines_.clear();
-    atlas_->clear();
-  }
-  LabelRoom room(view.viewport);
-  for (auto& characters : characters_) characters.clear();
-  shown = {.picture = view.viewport};
-  const double focal_px = view.pixels_per_radian();
-  for (const LabelRef& ref : order_) {
-    const KeptLabel& label = ref.layer->labels()[ref.index];
-    const auto at = project(view, Ecef{label.place_m});
-    if (!at || at->x < -0.5 * view.viewport.width_px || at->x > view.viewport.width_px || at->y < 0.0 ||
-        at->y > view.viewport.height_px || !in_sight(label, view, sight)) {
-      continue;
-    }
-    const double away_m = glm::length(label.place_m - view.eye.xyz_m);
-    const auto radius_px = static_cast<float>(label.object.radius_m / away_m * focal_px);
-    const float gap_px = std::round(std::max(0.5F * label.object.size_px, radius_px)) + kGap_px;
-    const glm::vec2 place(*at), margin(kMargin_px),
-        up(0.0F, 0.5F * float(shaper_->ascent_px() + shaper_->descent_px()));
-    const glm::vec2 begin = place + glm::vec2(gap_px, 0.0F);
-    // Most labels of a crowd have no room where their text begins, so their text need not be measured.
-    if (!room.is_free({begin - up - margin, begin + up + margin})) continue;
-    const Line& line = line_of(label.text);
-    const auto is_over_limb = [&](float x_px) {
-      return sight.limb != nullptr && is_beside_planet(view, *sight.limb, *at + glm::dvec2(x_px, 0.0));
-    };
-    const float wide_px = gap_px + line.width_px;
-    const bool turned = is_over_limb(wide_px) && !is_over_limb(0.0F) && !is_over_limb(-wide_px);
-    const float left_px = turned ? -wide_px : gap_px;
-    const glm::vec2 from = place + glm::vec2(left_px, 0.0F);
-    const LabelBox text{from - up, from + glm::vec2(line.width_px, 0.0F) + up};
-    if (!room.take({text.low_px - margin, text.high_px + margin})) continue;
-    const bool over_ground = sight.limb != nullptr && !is_underground(label.object);
-    put(label, ref.layer->drawn(label.object.color, label), line, left_px,
-        over_ground ? share_before_ground(view, *sight.limb, label.place_m, text) : 1.0F);
-    shown.labels.push_back({ref.layer->serial(), ref.index, text});
+  if (line_count_ > kMostLines) forget_lines();
+  choose(view, sight, shown);
+  for (bool is_fresh = false; atlas_->is_full() && (!is_fresh || atlas_->grow()); is_fresh = true) {
+    forget_lines();
+    choose(view, sight, shown);
   }
   std::vector<Character> all;
   for (std::size_t k = 0; k < characters_.size(); ++k) {
@@ -173,17 +171,66 @@ void LabelPass::place(const View& view, const LabelSight& sight, std::span<const
   buffer_.fill(all.data(), all.size() * sizeof(Character));
 }
 
-void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, float left_px,
+void LabelPass::choose(const View& view, const LabelSight& sight, ShownLabels& shown) {
+  for (auto& characters : characters_) characters.clear();
+  shown = {.picture = view.viewport};
+  Page page{view, sight, shown, LabelRoom(view.viewport)};
+  const glm::dvec2 size(view.viewport.width_px, view.viewport.height_px);
+  for (const LabelRef& ref : order_) {
+    const KeptLabel& label = ref.layer->labels()[ref.index];
+    const auto at = project(view, Ecef{label.place_m});
+    const bool is_near =
+        at && glm::all(glm::greaterThanEqual(*at, -0.5 * size)) && glm::all(glm::lessThanEqual(*at, 1.5 * size));
+    if (is_near && in_sight(label, view, sight)) choose(ref, *at, page);
+  }
+}
+
+void LabelPass::choose(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
+  const KeptLabel& label = ref.layer->labels()[ref.index];
+  const LabelLook& style = label.object.look;
+  const LineLook look = line_look(style);
+  const double away_m = glm::length(label.place_m - page.view.eye.xyz_m);
+  const auto radius_px = static_cast<float>(label.object.radius_m / away_m * page.view.pixels_per_radian());
+  const float half_height_px = half_heights_px_[static_cast<std::size_t>(look.glyphs.text_px)];
+  const TextWay way = text_way(style.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
+  const glm::vec2 place(at_px), up(0.0F, half_height_px),
+      margin(std::max(kMargin_px, float(halo_margin_px(look.glyphs))));
+  const glm::vec2 begin = place + glm::vec2(way.near_px, way.down_px);
+  // Most labels of a crowd have no room where their text begins, so their text need not be measured.
+  if (!page.room.is_free({begin - up - margin, begin + up + margin})) return;
+  const Line& line = line_of(label.text, look);
+  if (!line.is_whole) return;
+  const Ellipsoid* const limb = page.sight.limb;
+  const auto is_over_limb = [&](float x_px) {
+    return limb != nullptr && is_beside_planet(page.view, *limb, at_px + glm::dvec2(x_px, 0.0));
+  };
+  const float far_px = way.near_px + way.side * line.width_px;
+  const bool turned = way.side != 0.0F && is_over_limb(far_px) && !is_over_limb(0.0F) && !is_over_limb(-far_px);
+  const float other_px = way.side == 0.0F ? -0.5F * line.width_px : far_px;
+  const float left_px = turned ? std::min(-way.near_px, -far_px) : std::min(way.near_px, other_px);
+  const glm::vec2 from = place + glm::vec2(left_px, way.down_px);
+  const LabelBox text{from - up, from + glm::vec2(line.width_px, 0.0F) + up};
+  if (!page.room.take({text.low_px - margin, text.high_px + margin})) return;
+  const bool over_ground = limb != nullptr && !is_underground(label.object);
+  put(label, ref.layer->drawn(label.object.color, label), line, {left_px, way.down_px, half_height_px},
+      over_ground ? share_before_ground(page.view, *limb, label.place_m, text) : 1.0F);
+  page.shown.labels.push_back({ref.layer->serial(), ref.index, text});
+}
+
+void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, const Stand& stand,
                     float depth_share) {
   const SplitPosition p = split_position(label.place_m);
   auto& characters = characters_[(is_underground(label.object) ? 0U : 2U) + (label.object.through_surface ? 1U : 0U)];
-  // Centres a small letter vertically on the place.
-  const float pen_y_px = -std::round(0.35F * float(kText_px));
+  const glm::vec2 depth_reach(depth_share, std::max(kLeastReach_px, std::abs(stand.down_px) + stand.half_height_px));
+  const glm::vec4 halo = halo_color(label.object.look.halo);
+  // Centres a small letter vertically on the middle of the line.
+  const float pen_y_px = -std::round(0.35F * std::round(label.object.look.text_px)) - stand.down_px;
   for (const auto& [glyph, origin_px] : line.glyphs) {
     if (glyph.width == 0) continue;
-    const glm::vec2 offset(std::round(left_px + origin_px.x) + glyph.left,
+    const glm::vec2 offset(std::round(stand.left_px + origin_px.x) + glyph.left,
                            std::round(pen_y_px + origin_px.y) + glyph.top - glyph.height);
-    characters.push_back({p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color, depth_share});
+    characters.push_back(
+        {p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color, depth_reach, halo});
   }
 }
 

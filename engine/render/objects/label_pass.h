@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <set>
 #include <span>
@@ -48,10 +50,10 @@ struct ShownLabels {
   [[nodiscard]] std::vector<std::uint32_t> at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const;
 };
 
-/// Draws texts right of their places, or left of them where they would reach over the limb: antialiased, with a dark
-/// halo, all of one size, before the ground that they cover. If labels would overlap, only the label with the highest
-/// priority is drawn. The choice is made once per frame, so that both eyes show the same labels. Texts of any script
-/// are shaped (TextShaper) once, and their lines are kept. thread: main
+/// Draws texts beside their places, on the other side where they would reach over the limb: antialiased, with a halo,
+/// before the ground that they cover. If labels would overlap, only the label with the highest priority is drawn. The
+/// choice is made once per frame, so that both eyes show the same labels. Texts of any script are shaped (TextShaper)
+/// once, and their lines are kept. A label whose letters find no room in the largest atlas is not shown. thread: main
 class LabelPass {
  public:
   /// Limits: labels looked at, highest priority first, and characters per label.
@@ -73,11 +75,32 @@ class LabelPass {
     glm::vec2 offset_px;  ///< offset of the picture's lower left corner from the place, y up
     std::array<short, 4> atlas_px;
     ObjectColor color;
-    float depth_share;  ///< share of the place's depth at which the text lies
+    /// Share of the place's depth at which the text lies, and pixels that the text reaches from its place, up or down.
+    glm::vec2 depth_reach;
+    glm::vec4 halo;  ///< colour, and strength from 0 to 1
+  };
+  /// The look of a line, which decides its glyphs and their places.
+  struct LineLook {
+    GlyphLook glyphs;
+    int spacing_64ths = 0;  ///< room between two letters, 1/64 px
+    auto operator<=>(const LineLook&) const = default;
   };
   struct Line {
     std::vector<std::pair<Glyph, glm::vec2>> glyphs;  ///< glyphs, each with its origin, right of and above the pen
     float width_px = 0.0F;
+    bool is_whole = true;  ///< the atlas had room for all glyphs
+  };
+  /// The place of a text, pixels from the place of its label.
+  struct Stand {
+    float left_px, down_px;  ///< the middle of the text's left edge
+    float half_height_px;
+  };
+  /// A picture while its labels are chosen.
+  struct Page {
+    const View& view;
+    const LabelSight& sight;
+    ShownLabels& shown;
+    LabelRoom room;
   };
   /// A label of a layer.
   struct LabelRef {
@@ -87,17 +110,23 @@ class LabelPass {
 
   LabelPass() = default;
   void set_up_array();
-  [[nodiscard]] const Line& line_of(const std::u32string& text);
+  [[nodiscard]] static LineLook line_look(const LabelLook& look);
+  [[nodiscard]] const Line& line_of(const std::u32string& text, const LineLook& look);
+  void forget_lines();
   [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
   void merge(std::span<const DrawnLayer> layers);
-  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, float left_px, float depth_share);
+  void choose(const View& view, const LabelSight& sight, ShownLabels& shown);
+  void choose(const LabelRef& ref, glm::dvec2 at_px, Page& page);
+  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, const Stand& stand, float depth_share);
 
   gl::Program program_;
   gl::VertexArray array_;
   std::unique_ptr<TextShaper> shaper_;
   std::unique_ptr<GlyphAtlas> atlas_;
-  std::unordered_map<std::u32string, Line> lines_;               ///< lines of texts that were shown
-  std::vector<LabelRef> order_;                                  ///< labels in the order of placing
+  std::map<LineLook, std::unordered_map<std::u32string, Line>> lines_;  ///< lines of texts that were shown
+  std::size_t line_count_ = 0;                                          ///< lines in lines_
+  std::array<float, std::size_t(kMostText_px) + 1> half_heights_px_{};  ///< half the height of a line, by size of text
+  std::vector<LabelRef> order_;                                         ///< labels in the order of placing
   std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;

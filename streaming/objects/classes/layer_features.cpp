@@ -51,7 +51,10 @@ void keep(ObjectChange& change, const PolygonObject& area) {
   set_size(change, area.stroke_width_px);
 }
 
-void keep(ObjectChange& change, const LabelObject& label) { change.label = label.color; }
+void keep(ObjectChange& change, const LabelObject& label) {
+  change.label = label.color;
+  change.look = label.look;
+}
 
 template <class Object>
 void keep_all(const Features& features, const std::vector<Object>& objects, std::vector<ObjectChange>& changes) {
