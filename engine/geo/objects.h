@@ -152,7 +152,7 @@ inline constexpr float kLeastText_px = 6.0F, kMostText_px = 64.0F, kMostHalo_px 
 /// The look of a label's text beside its colour.
 struct LabelLook {
   float text_px = 15.0F;           ///< size of the font, kLeastText_px to kMostText_px; drawn at whole pixels
-  ObjectColor halo{0, 0, 0, 179};  ///< colour behind the edges of the letters; its alpha is drawn at whole percents
+  ObjectColor halo{0, 0, 0, 179};  ///< colour around the letters
   float halo_px = 1.4F;            ///< reach of the halo past the letters, 0 (none) to kMostHalo_px; in 0.2 px steps
   TextAnchor anchor = TextAnchor::left;  ///< near the limb of a globe, texts beside a marker turn to its other side
   float letter_spacing_em = 0.0F;        ///< 0 to 1 of the font's size; scripts with joined letters keep 0

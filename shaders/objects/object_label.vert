@@ -5,16 +5,16 @@ layout(location = 2) in vec2 offset_px;      // offset of the lower left corner
 layout(location = 3) in vec4 atlas_px;       // upper left corner, width and height
 layout(location = 4) in vec4 color;
 layout(location = 5) in vec2 depth_reach;    // share of the place's depth at which the text lies; its reach, pixels
-layout(location = 6) in vec4 halo;           // colour and strength
+layout(location = 6) in vec2 ink_halo;       // factors of ink and halo
 
 out vec2 texel;
 flat out vec4 text_color;
-flat out vec4 halo_color;
+flat out vec2 shares;
 flat out float pull;
 
 void main() {
   text_color = color;
-  halo_color = halo;
+  shares = ink_halo;
   // Labels are pulled towards the eye like markers, for the height of a text.
   pull = depth_reach.x * (1.0 - (depth_bias > 0.0 ? depth_bias + min(depth_reach.y / focal_px(), 0.5) : 0.0));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);

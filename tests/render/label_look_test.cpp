@@ -128,6 +128,18 @@ TEST_F(LabelLookTest, TheHaloHasItsColourAndReach) {
   EXPECT_EQ(clear.rgba, without.rgba) << "a halo without strength is none";
 }
 
+TEST_F(LabelLookTest, HalosLieUnderAllLettersAndAreWholeAroundThinOnes) {
+  const auto picture_of = [this](float text_px, float halo_px) {
+    return draw_label("illi", {.text_px = text_px, .halo = {0, 0, 255}, .halo_px = halo_px});
+  };
+  EXPECT_EQ(letters(picture_of(30.0F, 8.0F)).pixels, letters(picture_of(30.0F, 0.0F)).pixels);
+  const Ink ink = find(picture_of(9.0F, 0.0F), [](const ObjectColor& c) { return c.alpha > 60; });
+  const ObjectPicture thin = picture_of(9.0F, 3.0F);
+  for (int x = ink.left - 2; x < ink.right + 2; ++x) {
+    EXPECT_GT(thin.at(x, kMiddle_px).alpha, 250) << "stems cover no pixel wholly; at " << x;
+  }
+}
+
 TEST_F(LabelLookTest, TextsOverlapByTheirAnchors) {
   const double apart_deg = 1.3;  // 40 px
   const auto shown = [&](TextAnchor west, TextAnchor east) {

@@ -15,21 +15,26 @@
 namespace terrella {
 namespace {
 
-/// Returns the strength of the halo for each texel of a picture that reaches `margin` pixels past the ink: that of the
-/// strongest nearby pixel of ink, weakened over the last pixel of its reach.
+constexpr float kFaintInk = 0.25F;  // fainter ink has a fainter halo
+
+/// Returns the strength of the halo, 0 to 1, for each texel of a picture that reaches `margin` pixels past the ink. The
+/// edge of the ink lies within the pixels that it covers in part. The strength falls over a pixel where the reach ends.
 std::vector<float> halo_of(const FT_Bitmap& ink, int margin, const GlyphLook& look) {
   const int wide = int(ink.width) + 2 * margin, high = int(ink.rows) + 2 * margin;
   std::vector<float> halo(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
   if (look.halo_fifths == 0) return halo;
-  const float reach_px = float(5 + look.halo_fifths) / 5.0F;
+  const float reach_px = float(look.halo_fifths) / 5.0F;
   for (int dy = -margin; dy <= margin; ++dy) {
     for (int dx = -margin; dx <= margin; ++dx) {
-      const float part = std::clamp(reach_px - std::hypot(float(dx), float(dy)), 0.0F, 1.0F);
-      if (part <= 0.0F) continue;
+      const float left_px = reach_px - std::hypot(float(dx), float(dy));
+      if (left_px <= -1.0F) continue;
       for (int y = 0; y < int(ink.rows); ++y) {
         const std::uint8_t* const from = ink.buffer + static_cast<std::ptrdiff_t>(y) * ink.pitch;
         float* const to = halo.data() + static_cast<std::ptrdiff_t>(y + margin + dy) * wide + margin + dx;
-        for (int x = 0; x < int(ink.width); ++x) to[x] = std::max(to[x], part * float(from[x]));
+        for (int x = 0; x < int(ink.width); ++x) {
+          const float covered = float(from[x]) / 255.0F;
+          to[x] = std::max(to[x], std::min({1.0F, covered / kFaintInk, left_px + covered}));
+        }
       }
     }
   }
@@ -99,7 +104,7 @@ Glyph GlyphAtlas::draw(const FT_FaceRec_& face, const GlyphLook& look) {
     for (int x = -margin; x < int(ink.width) + margin; ++x) {
       const bool within = x >= 0 && y >= 0 && x < int(ink.width) && y < int(ink.rows);
       texels.push_back(within ? ink.buffer[y * ink.pitch + x] : std::uint8_t{0});
-      texels.push_back(static_cast<std::uint8_t>(halo[texels.size() / 2]));
+      texels.push_back(static_cast<std::uint8_t>(std::lround(255.0F * halo[texels.size() / 2])));
     }
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

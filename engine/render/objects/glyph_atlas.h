@@ -32,8 +32,8 @@ struct GlyphLook {
 /// fraction of the pixel, green the halo. thread: main
 class GlyphAtlas {
  public:
-  /// Sides of the texture: at first, and at most. One of 4096 px has room for the letters of any picture up to its
-  /// size.
+  /// Sides of the texture: at first, and at most. Labels do not overlap, so the letters of a picture of 4096 px hardly
+  /// need more room.
   static constexpr int kSide_px = 1024, kMostSide_px = 4096;
 
   [[nodiscard]] static Result<std::unique_ptr<GlyphAtlas>> create();

@@ -37,12 +37,6 @@ float share_before_ground(const View& view, const Ellipsoid& planet, const glm::
   return std::max(static_cast<float>(share), kLeastShare);
 }
 
-/// Returns colour and strength of a halo. Its alpha counts as a whole percent.
-glm::vec4 halo_color(const ObjectColor& halo) {
-  const float percent = std::round(float(halo.alpha) / 2.55F);
-  return {float(halo.red) / 255.0F, float(halo.green) / 255.0F, float(halo.blue) / 255.0F, percent / 100.0F};
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2 pixel_px, Viewport viewport) const {
@@ -86,7 +80,7 @@ void LabelPass::set_up_array() {
   gl::float_attribute(array, 1, 0, 3, offsetof(Character, low_m));
   gl::float_attribute(array, 2, 0, 2, offsetof(Character, offset_px));
   gl::float_attribute(array, 5, 0, 2, offsetof(Character, depth_reach));
-  gl::float_attribute(array, 6, 0, 4, offsetof(Character, halo));
+  gl::float_attribute(array, 6, 0, 2, offsetof(Character, ink_halo));
   glEnableVertexArrayAttrib(array, 3);
   glVertexArrayAttribFormat(array, 3, 4, GL_SHORT, GL_FALSE, offsetof(Character, atlas_px));
   glVertexArrayAttribBinding(array, 3, 0);
@@ -118,7 +112,7 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
 
 LabelPass::LineLook LabelPass::line_look(const LabelLook& look) {
   constexpr float kFixed = 64.0F;
-  const auto text_px = static_cast<int>(std::lround(look.text_px));
+  const auto text_px = static_cast<int>(std::lround(std::clamp(look.text_px, kLeastText_px, kMostText_px)));
   const bool has_halo = look.halo.alpha > 0;
   return {{text_px, has_halo ? static_cast<int>(std::lround(5.0F * look.halo_px)) : 0},
           static_cast<int>(std::lround(kFixed * look.letter_spacing_em * float(text_px)))};
@@ -181,57 +175,69 @@ void LabelPass::choose(const View& view, const LabelSight& sight, ShownLabels& s
     const auto at = project(view, Ecef{label.place_m});
     const bool is_near =
         at && glm::all(glm::greaterThanEqual(*at, -0.5 * size)) && glm::all(glm::lessThanEqual(*at, 1.5 * size));
-    if (is_near && in_sight(label, view, sight)) choose(ref, *at, page);
+    if (is_near && in_sight(label, view, sight)) try_label(ref, *at, page);
   }
 }
 
-void LabelPass::choose(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
+void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const KeptLabel& label = ref.layer->labels()[ref.index];
-  const LabelLook& style = label.object.look;
-  const LineLook look = line_look(style);
+  const LineLook look = line_look(label.object.look);
   const double away_m = glm::length(label.place_m - page.view.eye.xyz_m);
   const auto radius_px = static_cast<float>(label.object.radius_m / away_m * page.view.pixels_per_radian());
   const float half_height_px = half_heights_px_[static_cast<std::size_t>(look.glyphs.text_px)];
-  const TextWay way = text_way(style.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
-  const glm::vec2 place(at_px), up(0.0F, half_height_px),
-      margin(std::max(kMargin_px, float(halo_margin_px(look.glyphs))));
+  const TextWay way =
+      text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
+  const int halo_px = halo_margin_px(look.glyphs);
+  const glm::vec2 place(at_px), margin(std::max(kMargin_px, float(halo_px))), up(0.0F, half_height_px);
   const glm::vec2 begin = place + glm::vec2(way.near_px, way.down_px);
   // Most labels of a crowd have no room where their text begins, so their text need not be measured.
   if (!page.room.is_free({begin - up - margin, begin + up + margin})) return;
   const Line& line = line_of(label.text, look);
   if (!line.is_whole) return;
-  const Ellipsoid* const limb = page.sight.limb;
-  const auto is_over_limb = [&](float x_px) {
-    return limb != nullptr && is_beside_planet(page.view, *limb, at_px + glm::dvec2(x_px, 0.0));
-  };
-  const float far_px = way.near_px + way.side * line.width_px;
-  const bool turned = way.side != 0.0F && is_over_limb(far_px) && !is_over_limb(0.0F) && !is_over_limb(-far_px);
-  const float other_px = way.side == 0.0F ? -0.5F * line.width_px : far_px;
-  const float left_px = turned ? std::min(-way.near_px, -far_px) : std::min(way.near_px, other_px);
+  const float left_px = left_edge_px(way, line.width_px, at_px, page);
   const glm::vec2 from = place + glm::vec2(left_px, way.down_px);
   const LabelBox text{from - up, from + glm::vec2(line.width_px, 0.0F) + up};
   if (!page.room.take({text.low_px - margin, text.high_px + margin})) return;
-  const bool over_ground = limb != nullptr && !is_underground(label.object);
-  put(label, ref.layer->drawn(label.object.color, label), line, {left_px, way.down_px, half_height_px},
-      over_ground ? share_before_ground(page.view, *limb, label.place_m, text) : 1.0F);
+  const bool over_ground = page.sight.limb != nullptr && !is_underground(label.object);
+  const float share = over_ground ? share_before_ground(page.view, *page.sight.limb, label.place_m, text) : 1.0F;
+  const float reach_px = std::max(kLeastReach_px, std::abs(way.down_px) + half_height_px);
+  // Centres a small letter vertically on the middle of the line.
+  const float baseline_px = -std::round(0.35F * float(look.glyphs.text_px)) - way.down_px;
+  put(label, ref.layer->drawn(label.object.color, label), {line, halo_px, {left_px, baseline_px}, {share, reach_px}});
   page.shown.labels.push_back({ref.layer->serial(), ref.index, text});
 }
 
-void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Line& line, const Stand& stand,
-                    float depth_share) {
+// A text beside a marker turns to its other side where it would reach over the limb.
+float LabelPass::left_edge_px(const TextWay& way, float width_px, glm::dvec2 at_px, const Page& page) {
+  if (way.side == 0.0F) return -0.5F * width_px;
+  const auto is_over_limb = [&](float x_px) {
+    const Ellipsoid* const limb = page.sight.limb;
+    return limb != nullptr && is_beside_planet(page.view, *limb, at_px + glm::dvec2(x_px, 0.0));
+  };
+  const float far_px = way.near_px + way.side * width_px;
+  const bool turned = is_over_limb(far_px) && !is_over_limb(0.0F) && !is_over_limb(-far_px);
+  return turned ? std::min(-way.near_px, -far_px) : std::min(way.near_px, far_px);
+}
+
+// The halos of a text lie under all its letters, because a halo reaches over the letters beside its own.
+void LabelPass::put(const KeptLabel& label, const ObjectColor& color, const Shown& text) {
   const SplitPosition p = split_position(label.place_m);
+  const ObjectColor& halo = label.object.look.halo;
   auto& characters = characters_[(is_underground(label.object) ? 0U : 2U) + (label.object.through_surface ? 1U : 0U)];
-  const glm::vec2 depth_reach(depth_share, std::max(kLeastReach_px, std::abs(stand.down_px) + stand.half_height_px));
-  const glm::vec4 halo = halo_color(label.object.look.halo);
-  // Centres a small letter vertically on the middle of the line.
-  const float pen_y_px = -std::round(0.35F * std::round(label.object.look.text_px)) - stand.down_px;
-  for (const auto& [glyph, origin_px] : line.glyphs) {
-    if (glyph.width == 0) continue;
-    const glm::vec2 offset(std::round(stand.left_px + origin_px.x) + glyph.left,
-                           std::round(pen_y_px + origin_px.y) + glyph.top - glyph.height);
-    characters.push_back(
-        {p.high, p.low, offset, {glyph.x, glyph.y, glyph.width, glyph.height}, color, depth_reach, halo});
+  const auto add = [&](short inset, const ObjectColor& drawn, const glm::vec2& ink_halo) {
+    for (const auto& [glyph, origin_px] : text.line.glyphs) {
+      if (glyph.width == 0) continue;
+      const std::array<short, 4> atlas_px = {short(glyph.x + inset), short(glyph.y + inset),
+                                             short(glyph.width - 2 * inset), short(glyph.height - 2 * inset)};
+      const glm::vec2 offset(std::round(text.corner_px.x + origin_px.x) + glyph.left + inset,
+                             std::round(text.corner_px.y + origin_px.y) + glyph.top - glyph.height + inset);
+      characters.push_back({p.high, p.low, offset, atlas_px, drawn, text.depth_reach, ink_halo});
+    }
+  };
+  if (text.halo_margin_px > 0) {
+    add(0, {halo.red, halo.green, halo.blue, color.alpha}, {0.0F, float(halo.alpha) / 255.0F});
   }
+  add(static_cast<short>(text.halo_margin_px), color, {1.0F, 0.0F});
 }
 
 int LabelPass::draw(const ObjectDraw& draw, Viewport viewport) const {

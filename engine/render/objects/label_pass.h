@@ -77,7 +77,7 @@ class LabelPass {
     ObjectColor color;
     /// Share of the place's depth at which the text lies, and pixels that the text reaches from its place, up or down.
     glm::vec2 depth_reach;
-    glm::vec4 halo;  ///< colour, and strength from 0 to 1
+    glm::vec2 ink_halo;  ///< factors of the glyph's ink and halo, one of them 0
   };
   /// The look of a line, which decides its glyphs and their places.
   struct LineLook {
@@ -90,10 +90,12 @@ class LabelPass {
     float width_px = 0.0F;
     bool is_whole = true;  ///< the atlas had room for all glyphs
   };
-  /// The place of a text, pixels from the place of its label.
-  struct Stand {
-    float left_px, down_px;  ///< the middle of the text's left edge
-    float half_height_px;
+  /// A text that is shown.
+  struct Shown {
+    const Line& line;
+    int halo_margin_px;
+    glm::vec2 corner_px;  ///< beginning of its baseline, right of and above the place of its label
+    glm::vec2 depth_reach;
   };
   /// A picture while its labels are chosen.
   struct Page {
@@ -116,8 +118,9 @@ class LabelPass {
   [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
   void merge(std::span<const DrawnLayer> layers);
   void choose(const View& view, const LabelSight& sight, ShownLabels& shown);
-  void choose(const LabelRef& ref, glm::dvec2 at_px, Page& page);
-  void put(const KeptLabel& label, const ObjectColor& color, const Line& line, const Stand& stand, float depth_share);
+  void try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page);
+  [[nodiscard]] static float left_edge_px(const TextWay& way, float width_px, glm::dvec2 at_px, const Page& page);
+  void put(const KeptLabel& label, const ObjectColor& color, const Shown& text);
 
   gl::Program program_;
   gl::VertexArray array_;
