@@ -252,8 +252,14 @@ TEST_F(LivingObjects, ALabelIsPickedWhereItsTextIs) {
   EXPECT_FALSE(beside(at(0, 0), 20.0));
   ASSERT_TRUE(beside(at(9, -9), 55.0));
   EXPECT_EQ(beside(at(9, -9), 55.0)->kind, ObjectKind::label);
+  const ObjectChange left_of_it{.id = ObjectId{1}, .look = LabelLook{.anchor = TextAnchor::right}};
+  ASSERT_TRUE(globe_->edit_objects(layer, {.moves = {{ObjectId{1}, at(9, 9)}}, .changes = {left_of_it}}));
+  settle(*globe_, kLiving);
+  EXPECT_FALSE(beside(at(9, 9), 55.0));
+  ASSERT_TRUE(beside(at(9, 9), -55.0));
+  EXPECT_EQ(beside(at(9, 9), -55.0)->kind, ObjectKind::label);
   ASSERT_TRUE(globe_->edit_objects(layer, {.changes = {{.id = ObjectId{1}, .visible = false}}}));
-  EXPECT_FALSE(beside(at(9, -9), 55.0)) << "at once";
+  EXPECT_FALSE(beside(at(9, 9), -55.0)) << "at once";
 }
 
 // A worker cuts this many areas. The earlier scene stays until then, and an edit meanwhile is not lost.
