@@ -43,6 +43,7 @@ class SceneOpener {
   Status add_images();
   Status choose_sides();
   Status add_object_layers();
+  void add_pictures_of_objects();
   Status leave_out(const Error& why);
 
   SceneOptions options_;
@@ -152,6 +153,14 @@ Status SceneOpener::choose_sides() {
   return Done{};
 }
 
+/// Adds the pictures of the KML file of --objects. A project names them as an image.
+void SceneOpener::add_pictures_of_objects() {
+  auto added = add_layer(*scene_.globe, options_beside(options_.base, options_.objects), {});
+  if (added) return scene_.images.push_back(*std::move(added));
+  scene_.all_objects = false;
+  print_message("{}\n", added.error().message);
+}
+
 Status SceneOpener::add_object_layers() {
   std::vector<ObjectsOption> layers = options_.object_layers;
   if (!options_.objects.empty())
@@ -163,6 +172,7 @@ Status SceneOpener::add_object_layers() {
       continue;
     }
     scene_.all_objects = scene_.all_objects && added->faultless;
+    if (added->has_pictures && option.file == options_.objects) add_pictures_of_objects();
     scene_.objects.push_back(*std::move(added));
   }
   return Done{};

@@ -73,6 +73,7 @@ Result<SceneObjects> add_objects(Globe& globe, const ObjectsOption& option, bool
   for (const std::string& complaint : file->complaints) print_message("{}\n", complaint);
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
   layer.faultless = file->complaints.empty();
+  layer.has_pictures = file->ground_overlays > 0;
   layer.bounds = bounds_of(file->scene);
   const bool needs_features = keep_features || !option.style_over.empty();
   LayerFeatures features = needs_features ? layer_features(file->scene, layer.style) : LayerFeatures{};

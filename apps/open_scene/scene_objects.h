@@ -28,6 +28,7 @@ struct SceneObjects {
   FeatureStyle style{};               ///< the style in which they are drawn
   LayerFeatures features{};           ///< empty unless they are kept
   std::vector<ListedFeature> list{};  ///< empty unless features are kept
+  bool has_pictures = false;          ///< the file is a KML file whose pictures are imagery
 };
 
 /// Reads a file of objects in its style, or a model and puts it in its place. The error names the file. thread: any

@@ -77,6 +77,10 @@ ObjectFile objects_of(const py::object& geojson, const py::object& style) {
     file = parse_geojson_objects(text, "objects", {}, ObjectId{1}, look);
   }
   ObjectFile read = value_or_raise(std::move(file));
+  if (read.ground_overlays > 0) {
+    read.complaints.push_back(py::str(geojson).cast<std::string>() +
+                              ": its pictures are imagery; add the file as that");
+  }
   if (!read.complaints.empty()) conclude({.exit_code = kDoneInPart, .result = {}, .messages = read.complaints});
   return read;
 }

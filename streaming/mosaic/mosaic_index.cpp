@@ -45,10 +45,14 @@ std::uint64_t mark_of(const MosaicFile& file, const MosaicEntry& entry, const Mo
   const CrsBounds bounds = entry.words.bounds.value_or(CrsBounds{});
   const MosaicFigure& figure = options.figure;
   const int latitude = figure.latitude ? static_cast<int>(*figure.latitude) : -1;
-  return name_hash(fmt::format("{}|{}|{}|{}|{},{},{},{}|{}|{}|{}|{}|{}|{}", file.path.string(), file.bytes,
+  std::string corners;
+  if (entry.corners) {
+    for (const CrsPoint& corner : *entry.corners) corners += fmt::format("{:a},{:a},", corner.x, corner.y);
+  }
+  return name_hash(fmt::format("{}|{}|{}|{}|{},{},{},{}|{}|{}|{}|{}|{}|{}|{}", file.path.string(), file.bytes,
                                file.changed_ns, entry.words.crs, bounds.west, bounds.south, bounds.east, bounds.north,
-                               text_of(entry.nodata), text_of(entry.scale), text_of(entry.offset), figure.body.name,
-                               latitude, figure.may_be_planet));
+                               corners, text_of(entry.nodata), text_of(entry.scale), text_of(entry.offset),
+                               figure.body.name, latitude, figure.may_be_planet));
 }
 
 /// Reads one file, or finds it in the store.
@@ -70,6 +74,7 @@ class HeaderReader {
         was_kept = true;
         facts->file.path = entry.path;
         facts->mark = mark;
+        facts->order = entry.order;
         return *std::move(facts);
       }
     }
@@ -77,11 +82,11 @@ class HeaderReader {
     file.scale = entry.scale.value_or(file.scale);
     file.offset = entry.offset.value_or(file.offset);
     auto placer = placers_.take();
-    auto place = placer->place(file, entry.words);
+    auto place = placer->place(file, entry);
     placers_.give_back(std::move(placer));
     if (!place) return place.error();
     file.raster.reset();
-    return PlacedFile{.file = std::move(file), .place = *std::move(place), .mark = mark};
+    return PlacedFile{.file = std::move(file), .place = *std::move(place), .mark = mark, .order = entry.order};
   }
 
  private:
@@ -223,7 +228,7 @@ Result<MosaicIndex> index_mosaic(const MosaicList& list, const std::string& wher
   }
   index.latitude = index.files.front().place.latitude;
   if (Status chosen = choose_pixels(where, options.pixels, index); !chosen) return chosen.error();
-  sort_by_resolution(index.files);
+  sort_files(index.files);
   index.sheets = make_sheets(index.files);
   index.sheet_of.resize(index.files.size());
   for (std::size_t sheet = 0; sheet < index.sheets.size(); ++sheet) {

@@ -11,6 +11,7 @@
 
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
+#include "streaming/mosaic/overlay_list.h"
 
 namespace terrella {
 namespace {
@@ -168,13 +169,14 @@ bool is_mosaic(const fs::path& path) {
     return found;
   }
   if (!fs::is_regular_file(path, failed)) return false;
-  if (is_list_name(path)) return true;
+  if (is_list_name(path) || is_kml_name(path)) return true;
   if (lower_extension(path) != ".json") return false;
   const auto object = read_list_json(path);
   return object && object->contains("mosaic");
 }
 
-Result<MosaicList> read_mosaic_list(const fs::path& path) {
+Result<MosaicList> read_mosaic_list(const fs::path& path, const fs::path& unpacked) {
+  if (is_kml_name(path)) return read_overlay_list(path, unpacked);
   std::error_code failed;
   if (!fs::is_directory(path, failed)) return is_list_name(path) ? read_lines(path) : read_description(path);
   const fs::path whole = fs::absolute(path, failed).lexically_normal();

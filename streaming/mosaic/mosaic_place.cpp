@@ -110,6 +110,28 @@ std::optional<CrsPlace> whole_planet(const PictureFile& picture) {
   return CrsPlace{{.x0 = -180.0 - half, .x_per_column = step, .y0 = 90.0 + half, .y_per_row = -step}, "EPSG:4326"};
 }
 
+/// Place of a picture by its corners in degrees. Fails if they are no parallelogram within half a pixel.
+Result<CrsPlace> place_of_corners(const MosaicFile& file, const std::array<CrsPoint, 4>& corners) {
+  const auto& [low_left, low_right, high_right, high_left] = corners;
+  const auto width = static_cast<double>(file.width_px()), height = static_cast<double>(file.height_px());
+  const Affine to_crs{.x0 = high_left.x,
+                      .x_per_column = (high_right.x - high_left.x) / width,
+                      .x_per_row = (low_left.x - high_left.x) / height,
+                      .y0 = high_left.y,
+                      .y_per_column = (high_right.y - high_left.y) / width,
+                      .y_per_row = (low_left.y - high_left.y) / height};
+  const CrsPoint corner = to_crs.at(width, height);
+  const double pixel =
+      std::sqrt(std::abs(to_crs.x_per_column * to_crs.y_per_row - to_crs.x_per_row * to_crs.y_per_column));
+  if (!to_crs.is_finite() || std::hypot(corner.x - low_right.x, corner.y - low_right.y) > 0.5 * pixel) {
+    return Error{
+        fmt::format("{}: its four corners are no parallelogram, in which a picture can lie; make a GeoTIFF of it "
+                    "(gdal_translate -a_srs EPSG:4326 -gcp COLUMN ROW LON LAT for each corner, gdalwarp)",
+                    file.path.string())};
+  }
+  return CrsPlace{to_crs, "EPSG:4326"};
+}
+
 /// A map whose pixels are units of the system.
 Result<GroundMap> open_map(const std::string& crs, const Body& body, LatitudeKind latitude) {
   RasterInfo units{.name = {}, .attribution = {}, .crs = crs, .levels = {}};
@@ -178,9 +200,9 @@ Result<CrsPlace> MosaicPlacer::read_place(const MosaicFile& file, const PlaceWor
   return *placed->projected;
 }
 
-Result<MosaicPlace> MosaicPlacer::place(const MosaicFile& file, const PlaceWords& words) {
-  LatitudeKind latitude = LatitudeKind::graphic;
-  const auto at = read_place(file, words, latitude);
+Result<MosaicPlace> MosaicPlacer::place(const MosaicFile& file, const MosaicEntry& entry) {
+  LatitudeKind latitude = figure_.latitude.value_or(LatitudeKind::graphic);
+  const auto at = entry.corners ? place_of_corners(file, *entry.corners) : read_place(file, entry.words, latitude);
   if (!at) return at.error();
   return place_at(file, *at, latitude);
 }

@@ -54,7 +54,7 @@ class MosaicPlacer {
  public:
   explicit MosaicPlacer(const MosaicFigure& figure) : figure_(figure) {}
   /// The error names the file, its statement and a cure. Blocks.
-  [[nodiscard]] Result<MosaicPlace> place(const MosaicFile& file, const PlaceWords& words);
+  [[nodiscard]] Result<MosaicPlace> place(const MosaicFile& file, const MosaicEntry& entry);
 
  private:
   [[nodiscard]] Result<MosaicPlace> place_at(const MosaicFile& file, const CrsPlace& at, LatitudeKind latitude);

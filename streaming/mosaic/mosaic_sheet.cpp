@@ -86,11 +86,11 @@ int resolution_class(double pixel_m) {
 
 }  // namespace
 
-void sort_by_resolution(std::vector<PlacedFile>& files) {
+void sort_files(std::vector<PlacedFile>& files) {
   std::map<std::string, double> unit_m;  // one for a system, so that files with equal steps stay equal
   for (const PlacedFile& file : files) unit_m.try_emplace(file.place.at.crs, file.place.unit_m);
-  std::ranges::stable_sort(files, std::ranges::greater(), [&](const PlacedFile& file) {
-    return resolution_class(file.place.pixel_units * unit_m.at(file.place.at.crs));
+  std::ranges::stable_sort(files, std::ranges::less(), [&](const PlacedFile& file) {
+    return std::pair(file.order, -resolution_class(file.place.pixel_units * unit_m.at(file.place.at.crs)));
   });
 }
 

@@ -13,6 +13,7 @@ struct PlacedFile {
   MosaicFile file;
   MosaicPlace place;
   std::uint64_t mark = 0;  ///< hash of path, size, time of change and of what the description says
+  double order = 0.0;      ///< MosaicEntry::order
 };
 
 /// Corner of a file on a sheet's pixels.
@@ -36,8 +37,8 @@ struct MosaicSheet {
 /// thread: any
 [[nodiscard]] std::vector<MosaicSheet> make_sheets(const std::vector<PlacedFile>& files);
 
-/// Sorts files: the coarsest first, so that the finest lie on top; files of one resolution within 5 % stay as given.
-/// Pure. thread: any
-void sort_by_resolution(std::vector<PlacedFile>& files);
+/// Sorts files by their order, then the coarsest first, so that the finest lie on top; files of one order and one
+/// resolution within 5 % stay as given. Pure. thread: any
+void sort_files(std::vector<PlacedFile>& files);
 
 }  // namespace terrella

@@ -129,15 +129,20 @@ class Mosaic : public MosaicTiles {
     return index_.files_in({at.west_deg, at.south_deg, at.east_deg, at.north_deg});
   }
 
-  /// A tile between the files: numbers without data, so that no coarser numbers stand in.
-  [[nodiscard]] Result<EncodedTile, TileFailure> nothing() const {
-    if (!index_.numbers) return TileFailure{MissingKind::blank, {}};
-    const auto side = static_cast<std::size_t>(info_.grid.tile_px);
+  /// A tile between the files: clear pixels, or numbers without data, so that nothing coarser stands in.
+  [[nodiscard]] EncodedTile nothing() const {
+    const int side = info_.grid.tile_px;
+    const std::size_t pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     EncodedTile tile;
-    tile.make_numbers = [side]() -> Result<Numbers, TileFailure> {
-      const float none = std::numeric_limits<float>::quiet_NaN();
-      return Numbers{static_cast<int>(side), static_cast<int>(side), std::vector<float>(side * side, none)};
-    };
+    if (index_.numbers) {
+      tile.make_numbers = [side, pixels]() -> Result<Numbers, TileFailure> {
+        return Numbers{side, side, std::vector<float>(pixels, std::numeric_limits<float>::quiet_NaN())};
+      };
+    } else {
+      tile.make_picture = [side, pixels]() -> Result<Image, TileFailure> {
+        return Image{side, side, std::vector<std::uint8_t>(pixels * 4)};
+      };
+    }
     return tile;
   }
 
@@ -196,10 +201,14 @@ class Mosaic : public MosaicTiles {
 };
 
 /// Names the files that are left out: a few of them, and how many more.
-void name_left_out(const MosaicIndex& index, const std::string& where, const MosaicOptions& options) {
+void name_left_out(const MosaicIndex& index, const MosaicList& list, const std::string& where,
+                   const MosaicOptions& options) {
   constexpr std::size_t kNamed = 10;
-  if (options.left_out) options.left_out(static_cast<int>(index.left_out.size()));
-  if (!options.remark || index.left_out.empty()) return;
+  if (options.left_out) options.left_out(static_cast<int>(index.left_out.size() + list.remarks.size()));
+  if (!options.remark) return;
+  for (std::size_t i = 0; i < std::min(kNamed, list.remarks.size()); ++i) options.remark(list.remarks[i]);
+  if (list.remarks.size() > kNamed) options.remark(fmt::format("{}: and {} more", where, list.remarks.size() - kNamed));
+  if (index.left_out.empty()) return;
   options.remark(fmt::format("{}: {} of {} files are left out:", where, index.left_out.size(),
                              index.left_out.size() + index.files.size()));
   for (std::size_t i = 0; i < std::min(kNamed, index.left_out.size()); ++i) options.remark(index.left_out[i]);
@@ -222,7 +231,7 @@ Result<std::unique_ptr<MosaicTiles>> open_mosaic(const MosaicList& list, const s
   if (!index) return index.error();
   const auto grid = grid_of(*index, options, where);
   if (!grid) return grid.error();
-  name_left_out(*index, where, options);
+  name_left_out(*index, list, where, options);
   TileSetInfo info;
   info.name = list.name;
   info.attribution = list.attribution;
@@ -240,7 +249,9 @@ Result<std::unique_ptr<MosaicTiles>> open_mosaic(const MosaicList& list, const s
 }
 
 Result<std::unique_ptr<MosaicTiles>> open_mosaic(const std::filesystem::path& path, const MosaicOptions& options) {
-  const auto list = read_mosaic_list(path);
+  std::filesystem::path unpacked = options.store;
+  if (!unpacked.empty()) unpacked.replace_extension(".files");
+  const auto list = read_mosaic_list(path, unpacked);
   if (!list) return list.error();
   return open_mosaic(*list, path.string(), options);
 }

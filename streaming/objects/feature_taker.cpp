@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "streaming/file_bytes.h"
 #include "streaming/objects/feature_objects.h"
+#include "streaming/objects/model_folder.h"
 #include "streaming/objects/quake_catalogue.h"
 #include "streaming/objects/style_rules.h"
 #include "streaming/preload/geojson_text.h"
@@ -15,6 +17,17 @@ namespace terrella {
 namespace {
 
 using nlohmann::json;
+
+/// Reads icons in or below a folder.
+IconShelf::ReadPicture reader_in(const std::filesystem::path& folder) {
+  return [folder](const std::string& name) -> Result<std::vector<std::byte>> {
+    const auto path = path_in_folder(folder, name);
+    if (!path) return path.error();
+    auto bytes = read_file(*path, kMostIconBytes);
+    if (!bytes) return Error{bytes.error().message};
+    return *std::move(bytes);
+  };
+}
 
 /// Names the objects of a feature, and gives them its properties.
 void name_feature(ObjectStyle& style, ObjectId id, const json& properties) {
@@ -27,7 +40,7 @@ void name_feature(ObjectStyle& style, ObjectId id, const json& properties) {
 }  // namespace
 
 FeatureTaker::FeatureTaker(std::string where, const std::filesystem::path& folder, ObjectId first, ObjectFile& file)
-    : where_(std::move(where)), models_(folder), icons_(folder), first_(first), file_(file) {
+    : where_(std::move(where)), models_(folder), icons_(reader_in(folder)), first_(first), file_(file) {
   file_.next = first;
 }
 

@@ -25,6 +25,8 @@ class FeatureTaker {
   void complain_of(const std::string& what);
   /// Draws further features in a style.
   void set_style(FeatureStyle style) { style_ = std::move(style); }
+  /// Reads the icons of further features otherwise than from the folder.
+  void set_icon_reader(IconShelf::ReadPicture read) { icons_ = IconShelf(std::move(read)); }
   /// Makes further features earthquakes of a catalogue.
   void expect_quakes() { quakes_ = true; }
 

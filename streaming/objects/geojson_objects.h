@@ -26,6 +26,7 @@ struct ObjectFile {
   std::string attribution = {};         ///< the document's "attribution"; may be empty
   std::vector<std::string> complaints;  ///< each names the file, the feature counted from 1, and the action taken
   std::size_t complaints_left_out = 0;
+  std::size_t ground_overlays = 0;  ///< pictures of a KML file, which the file gives as imagery
 };
 
 /// Reads the objects of GeoJSON (RFC 7946): all its geometries. Positions are longitude, latitude, and metres over the

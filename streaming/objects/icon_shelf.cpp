@@ -4,13 +4,10 @@
 #include <tiny_gltf.h>
 
 #include "codecs/image.h"
-#include "streaming/file_bytes.h"
-#include "streaming/objects/model_folder.h"
 
 namespace terrella {
 namespace {
 
-constexpr std::size_t kMostFileBytes = 4UL << 20;
 constexpr std::size_t kShownCharacters = 40;
 
 /// An icon's name in a message.
@@ -18,21 +15,14 @@ std::string shown(const std::string& name) {
   return name.size() <= kShownCharacters ? name : name.substr(0, kShownCharacters) + "…";
 }
 
-Result<std::vector<std::byte>> bytes_of(const std::string& name, const std::filesystem::path& folder) {
-  if (name.starts_with("data:")) {
-    std::vector<unsigned char> bytes;
-    std::string type;
-    if (!tinygltf::DecodeDataURI(&bytes, type, name, 0, false)) {
-      return Error{"this data: URI cannot be read; write data:image/png;base64, and the picture"};
-    }
-    const auto all = std::as_bytes(std::span(bytes));
-    return std::vector<std::byte>(all.begin(), all.end());
+Result<std::vector<std::byte>> decode_uri(const std::string& name) {
+  std::vector<unsigned char> bytes;
+  std::string type;
+  if (!tinygltf::DecodeDataURI(&bytes, type, name, 0, false)) {
+    return Error{"this data: URI cannot be read; write data:image/png;base64, and the picture"};
   }
-  const auto path = path_in_folder(folder, name);
-  if (!path) return path.error();
-  auto bytes = read_file(*path, kMostFileBytes);
-  if (!bytes) return Error{bytes.error().message};
-  return *std::move(bytes);
+  const auto all = std::as_bytes(std::span(bytes));
+  return std::vector<std::byte>(all.begin(), all.end());
 }
 
 }  // namespace
@@ -56,8 +46,9 @@ std::shared_ptr<const IconImage> IconShelf::get(const std::string& name, const C
 }
 
 Result<std::shared_ptr<const IconImage>> IconShelf::read(const std::string& name) const {
-  const auto bytes = bytes_of(name, folder_);
+  const auto bytes = name.starts_with("data:") ? decode_uri(name) : read_file_(name);
   if (!bytes) return bytes.error();
+  if (bytes->size() > kMostIconBytes) return Error{fmt::format("it has more than {} bytes", kMostIconBytes)};
   const auto size = picture_size(*bytes);
   if (size && (size->width_px > kMostIconSide_px || size->height_px > kMostIconSide_px)) {
     return Error{fmt::format("{}x{} pixels; scale it down to at most {} a side", size->width_px, size->height_px,

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "geo/objects.h"
@@ -11,11 +13,16 @@
 
 namespace terrella {
 
+/// Most bytes of an icon's file.
+inline constexpr std::size_t kMostIconBytes = 4UL << 20;
+
 /// Icons named by features: picture files, or pictures in data: URIs. Each is read once. thread: one
 class IconShelf {
  public:
-  /// Files are in or below this folder; empty: no files.
-  explicit IconShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// Reads a picture's file. The error names the file.
+  using ReadPicture = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
+
+  explicit IconShelf(ReadPicture read_file) : read_file_(std::move(read_file)) {}
 
   /// Returns null, with a complaint, if the icon cannot be read.
   [[nodiscard]] std::shared_ptr<const IconImage> get(const std::string& name, const Complain& complain);
@@ -23,7 +30,7 @@ class IconShelf {
  private:
   [[nodiscard]] Result<std::shared_ptr<const IconImage>> read(const std::string& name) const;
 
-  std::filesystem::path folder_;
+  ReadPicture read_file_;
   std::map<std::string, std::shared_ptr<const IconImage>> icons_;
 };
 

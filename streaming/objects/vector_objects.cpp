@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "streaming/objects/feature_taker.h"
+#include "streaming/objects/vector/kml_file.h"
 #include "streaming/objects/vector/vector_feature.h"
 #include "streaming/objects/vector/vector_file.h"
 
@@ -47,6 +51,9 @@ class LayerReader {
   LayerReader(const VectorFile& file, FeatureTaker& taker)
       : file_(file), is_kml_(file.driver == "LIBKML"), taker_(taker) {}
 
+  /// The number of GroundOverlay elements.
+  [[nodiscard]] std::size_t overlays() const { return overlays_; }
+
   void read_all() {
     const int layers = gdal().GDALDatasetGetLayerCount(file_.dataset.get());
     for (int i = 0; i < layers && count_ < kMaxVectorFeatures; ++i) {
@@ -54,9 +61,6 @@ class LayerReader {
       if (layer != nullptr && !repeats_lines(gdal().OGR_L_GetName(layer))) read(layer);
     }
     if (file_.has_links) taker_.complain_of("its files of NetworkLink elements are not read; open them one by one");
-    if (overlays_ > 0) {
-      taker_.complain_of(fmt::format("{} GroundOverlay pictures are left out; open them as pictures", overlays_));
-    }
     if (above_sea_) {
       taker_.complain_of(
           "its heights over the sea are taken as heights over the ellipsoid: they differ by up to 110 m");
@@ -117,7 +121,7 @@ class LayerReader {
     Result<json> shape = geojson_of(geometry);
     if (!shape) return taker_.complain_of(fmt::format("feature {}: {}", index + 1, shape.error().message));
     json properties = properties_of(feature, definition);
-    add_style(feature, properties);
+    add_style(feature, is_kml_, properties);
     if (!properties.contains("name") && properties.contains("Name")) properties["name"] = properties["Name"];
     if (is_kml_ && is_overlay(properties, *shape)) {
       ++overlays_;
@@ -150,6 +154,18 @@ class LayerReader {
   bool above_sea_ = false;
 };
 
+/// Reads icons beside a KML file or in a KMZ file.
+IconShelf::ReadPicture icons_of(const std::filesystem::path& path) {
+  auto file = std::make_shared<Result<KmlFile>>(KmlFile::open(path));
+  return [file](const std::string& name) -> Result<std::vector<std::byte>> {
+    if (!*file) return file->error();
+    const auto text = (*file)->read(KmlFile::resolved((*file)->document(), name));
+    if (!text) return text.error();
+    const auto bytes = std::as_bytes(std::span(*text));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  };
+}
+
 }  // namespace
 
 bool is_vector_file(const std::filesystem::path& path) { return vector_driver_of(path) != nullptr; }
@@ -161,8 +177,11 @@ Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, Object
   ObjectFile file;
   FeatureTaker taker(path.string(), path.has_parent_path() ? path.parent_path() : ".", first, file);
   taker.set_style(style);
-  LayerReader(*opened, taker).read_all();
-  if (!file.scene.empty()) return file;
+  if (opened->driver == "LIBKML") taker.set_icon_reader(icons_of(path));
+  LayerReader reader(*opened, taker);
+  reader.read_all();
+  file.ground_overlays = reader.overlays();
+  if (!file.scene.empty() || file.ground_overlays > 0) return file;
   const std::string why =
       file.complaints.empty() ? path.string() + ": it has no features with a place" : file.complaints.front();
   return Error{why};

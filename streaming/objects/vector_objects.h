@@ -20,9 +20,11 @@ inline constexpr std::size_t kMaxVectorUnpackedBytes = 256UL << 20;
 /// Reads the objects of a vector file by GDAL, with the fields of features as their properties. Positions become
 /// longitude and latitude on WGS84, or on the file's own body if that is not the Earth. A layer without a coordinate
 /// system must be in degrees. The third coordinate is metres over the ellipsoid. KML's altitudeMode counts, with
-/// clampToGround as its default. Colours and widths of the file's styles count like those of simplestyle.
+/// clampToGround as its default. Colours and widths of the file's styles count like those of simplestyle. Pictures of
+/// KML (GroundOverlay) are only counted: open_mosaic() opens them.
 ///
-/// Faulty features are skipped with a complaint. Fails if the file is too long, or no vector file. Blocks. thread: any
+/// Faulty features are skipped with a complaint. Fails if the file is too long, no vector file, or without anything.
+/// Blocks. thread: any
 [[nodiscard]] Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, ObjectId first = ObjectId{1},
                                                      const FeatureStyle& style = {});
 

@@ -178,5 +178,20 @@ TEST(MosaicFilesTest, ListsAndDescriptionsNameFilesAndFolders) {
   EXPECT_FALSE(is_mosaic(folder.path()));
 }
 
+TEST(MosaicFilesTest, ATileBetweenPicturesIsClearAndNotMissing) {
+  const ScratchFolder folder;
+  for (const int west : {10, 20}) {
+    write_raw(folder / "raw", "Byte", 16, 16, 3, [](int, int, int) { return 200.0; });
+    ASSERT_TRUE(translate(fmt::format("-a_srs EPSG:4326 -a_ullr {} 50 {} 49", west, west + 1), folder / "raw",
+                          folder / fmt::format("{}.tif", west)));
+  }
+  const auto tiles = must_open(folder.path(), {.tile_px = 16});
+  const auto between = tiles->read(tile_at(tiles->info().grid, 49.5, 15.5));
+  ASSERT_TRUE(between) << between.error().why;
+  const auto picture = between->make_picture();
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->rgba, std::vector<std::uint8_t>(16 * 16 * 4));
+}
+
 }  // namespace
 }  // namespace terrella::test

@@ -274,7 +274,10 @@ class Maker:
             "</IconStyle></Style><Placemark><name>P</name><styleUrl>#s</styleUrl><Point><coordinates>5,5,7</coordinates></Point></Placemark>"
             "<Placemark><styleUrl>#s</styleUrl><LineString><altitudeMode>relativeToGround</altitudeMode><coordinates>-30,0,100 30,20,100"
             "</coordinates></LineString></Placemark><Placemark><styleUrl>#s</styleUrl><Polygon><outerBoundaryIs><LinearRing><coordinates>"
-            "1,1 9,1 9,9 1,1</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>")
+            "1,1 9,1 9,9 1,1</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark><GroundOverlay><drawOrder>1</drawOrder><Icon>"
+            "<href>o.png</href></Icon><LatLonBox><north>9</north><south>5</south><east>9</east><west>5</west><rotation>5</rotation>"
+            "</LatLonBox></GroundOverlay></Document></kml>")
+        (folder / "o.png").write_bytes(png(8, 8))
         yield Seed(folder, "a.kml", ("a.kml",), objects=True)
 
     def gpx(self):

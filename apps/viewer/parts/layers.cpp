@@ -333,6 +333,7 @@ void Layers::add(OpenedFile file) {
   insert(std::move(row));
   const Status kept = remember_opened(std::array{file.path.string()});
   say(kept ? told : kept.error().message);
+  if (file.features) add({.path = file.path, .what = *std::move(file.features)});
 }
 
 Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {

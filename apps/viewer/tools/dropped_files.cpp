@@ -57,6 +57,43 @@ bool is_of_heights(const TileSetInfo& info) {
   return info.numbers && (info.numbers->quantity == "height" || info.numbers->unit == "m");
 }
 
+Result<OpenedFile> open_tiles(const std::filesystem::path& path, const SourceOptions& options,
+                              const CutProgress& progress) {
+  SourceOptions tiles_options = options_beside(options, path.string());
+  std::vector<std::shared_ptr<GrowingCut>> cuts;
+  tiles_options.cuts = &cuts;
+  OpenedRasters rasters;
+  tiles_options.opened = &rasters;
+  auto tiles = open_any_tiles(tiles_options, progress);
+  if (!tiles) return tiles.error();
+  FactsReader read_facts = facts_reader(tiles_options.address, {}, {}, rasters);
+  if (!is_of_heights((*tiles)->info())) {
+    auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
+    if (!layer) return layer.error();
+    return OpenedFile{path, *std::move(layer), {}, std::move(cuts), std::move(read_facts)};
+  }
+  auto heights = ElevationSource::open(*std::move(tiles), path.string());
+  if (!heights) return heights.error();
+  return OpenedFile{path, *std::move(heights), {}, {}, std::move(read_facts)};
+}
+
+/// Opens the features of a vector file; of a KML file with its pictures, if it has some.
+Result<OpenedFile> open_vector(const std::filesystem::path& path, const SourceOptions& options,
+                               const CutProgress& progress) {
+  auto opened = open_objects(path);
+  if (!opened) return opened.error();
+  auto& features = std::get<ObjectFile>(opened->what);
+  if (features.ground_overlays == 0) return opened;
+  auto pictures = open_tiles(path, options, progress);
+  if (!pictures && features.scene.empty()) return pictures.error();
+  if (!pictures) {
+    features.complaints.insert(features.complaints.begin(), pictures.error().message);
+    return opened;
+  }
+  if (!features.scene.empty()) pictures->features = std::move(features);
+  return pictures;
+}
+
 }  // namespace
 
 std::string shown_name(const std::filesystem::path& path) {
@@ -78,27 +115,13 @@ Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceO
                  ": objects and models are read from files only; download this one, and open the file"};
   }
   if (extension == ".glb" || extension == ".gltf") return open_objects(path, place);
-  if (is_geojson(path) || (of_objects && is_vector_file(path))) return open_objects(path);
-  SourceOptions tiles_options = options_beside(options, path.string());
-  std::vector<std::shared_ptr<GrowingCut>> cuts;
-  tiles_options.cuts = &cuts;
-  OpenedRasters rasters;
-  tiles_options.opened = &rasters;
-  auto tiles = open_any_tiles(tiles_options, progress);
+  if (is_geojson(path) || (of_objects && is_vector_file(path))) return open_vector(path, options, progress);
+  auto tiles = open_tiles(path, options, progress);
   if (!tiles && is_file && is_of_either(path)) {
     auto features = open_objects(path);
     if (features) return features;
   }
-  if (!tiles) return tiles.error();
-  FactsReader read_facts = facts_reader(tiles_options.address, {}, {}, rasters);
-  if (!is_of_heights((*tiles)->info())) {
-    auto layer = layer_of(*std::move(tiles), {}, path.string(), true);
-    if (!layer) return layer.error();
-    return OpenedFile{path, *std::move(layer), {}, std::move(cuts), std::move(read_facts)};
-  }
-  auto heights = ElevationSource::open(*std::move(tiles), path.string());
-  if (!heights) return heights.error();
-  return OpenedFile{path, *std::move(heights), {}, {}, std::move(read_facts)};
+  return tiles;
 }
 
 DroppedFiles::~DroppedFiles() {

@@ -25,11 +25,12 @@ struct OpenedFile {
   std::optional<Geodetic> model_place = {};            ///< set for a model: where it stands
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< cuts of a picture that run in the background
   FactsReader read_facts = {};                         ///< reads the facts of a raster
+  std::optional<ObjectFile> features = {};             ///< of a KML file whose pictures are `what`
 };
 
 /// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of
-/// pictures, numbers or heights, GeoJSON, or a glTF model. A model stands at `place`. `options` sets the cache. The
-/// error names the file and the reason. thread: any, one at a time
+/// pictures, numbers or heights, GeoJSON, KML with its pictures, or a glTF model. A model stands at `place`. `options`
+/// sets the cache. The error names the file and the reason. thread: any, one at a time
 [[nodiscard]] Result<OpenedFile> open_dropped(const std::filesystem::path& path, const SourceOptions& options,
                                               const Geodetic& place, const CutProgress& progress = {});
 

@@ -3,22 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <pugixml.hpp>
 #include <string_view>
 
-#include "streaming/objects/vector_objects.h"
-#include "streaming/raster/gdal/gdal_library.h"
+#include "streaming/objects/vector/kml_file.h"
 
 namespace terrella {
 namespace {
-
-/// Name of an element without the prefix of its namespace.
-std::string_view local_name(const pugi::xml_node& node) {
-  const std::string_view name = node.name();
-  return name.substr(name.find(':') + 1);  // npos + 1 is 0
-}
 
 std::ptrdiff_t count_of(const pugi::xml_node& parent, std::string_view name) {
   return std::ranges::count_if(parent.children(), [name](const auto& child) { return local_name(child) == name; });
@@ -44,23 +35,9 @@ class CrashCheck : public pugi::xml_tree_walker {
   std::string fault_;
 };
 
-Result<std::string> read_all(const std::string& name) {
-  VSILFILE* const file = gdal().VSIFOpenL(name.c_str(), "rb");
-  if (file == nullptr) return Error{"it cannot be opened"};
-  std::string text;
-  std::array<char, 1UL << 16> part{};
-  std::size_t got = 0;
-  while (text.size() <= kMaxVectorUnpackedBytes && (got = gdal().VSIFReadL(part.data(), 1, part.size(), file)) > 0) {
-    text.append(part.data(), got);
-  }
-  static_cast<void>(gdal().VSIFCloseL(file));
-  if (text.size() > kMaxVectorUnpackedBytes) return Error{"it is longer than it states"};
-  return text;
-}
-
 /// A document that is no XML counts as good if it may be a picture.
 Status check_document(const std::string& name, bool may_be_picture) {
-  auto text = read_all(name);
+  auto text = read_by_gdal(name);
   if (!text) return text.error();
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(text->data(), text->size());
@@ -75,11 +52,7 @@ Status check_document(const std::string& name, bool may_be_picture) {
 
 Status check_kml(const std::string& name, bool is_zip) {
   if (!is_zip) return check_document(name, false);
-  char** const names = gdal().VSIReadDirRecursive(name.c_str());
-  const std::unique_ptr<char*, decltype(gdal().CSLDestroy)> owner(names, gdal().CSLDestroy);
-  for (int i = 0; i < gdal().CSLCount(names); ++i) {
-    const std::string_view part = names[i];
-    if (part.empty() || part.ends_with('/')) continue;
+  for (const std::string& part : names_in_zip(name)) {
     const bool may_be_picture = !part.ends_with(".kml");
     if (const Status good = check_document(fmt::format("{}/{}", name, part), may_be_picture); !good) {
       return Error{fmt::format("{}: {}", part, good.error().message)};

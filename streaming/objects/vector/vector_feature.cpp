@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 #include "base/number.h"
@@ -91,6 +92,18 @@ json value_of(OGRFeatureH feature, OGRFieldDefnH field, int index) {
   return utf8_of(gdal().OGR_F_GetFieldAsString(feature, index));
 }
 
+/// The scale of a KML icon. GDAL would convert it, as sizes that have a unit; these are of other formats.
+std::optional<double> icon_scale(std::string_view style) {
+  constexpr std::string_view kSize = ",s:";
+  const std::size_t at = style.find(kSize);
+  if (at == std::string_view::npos) return {};
+  const std::string_view said = style.substr(at + kSize.size());
+  double scale = 0.0;
+  const auto [end, fault] = std::from_chars(said.data(), said.data() + said.size(), scale);
+  if (fault != std::errc() || end == said.data() + said.size() || (*end != ',' && *end != ')')) return {};
+  return scale;
+}
+
 /// A part of a style: a pen, a brush or a symbol.
 class StyleTool {
  public:
@@ -118,6 +131,20 @@ class StyleTool {
     properties[opacity] = static_cast<double>(alpha) / 255.0;
   }
 
+  /// Adds the picture of a KML icon that is no address, its colour, its size and its direction.
+  void add_icon(double scale, json& properties) const {
+    constexpr double kIcon_px = 32.0;  // of scale 1, as in Google Earth
+    int is_absent = 1;
+    const char* picture = gdal().OGR_ST_GetParamStr(tool_, OGRSTSymbolId, &is_absent);
+    const std::string name = picture == nullptr || is_absent != 0 ? "" : picture;
+    if (name.empty() || name.find("://") != std::string::npos || properties.contains("icon")) return;
+    properties["icon"] = name;
+    add_colour(OGRSTSymbolColor, "icon-color", nullptr, properties);
+    const double angle = gdal().OGR_ST_GetParamDbl(tool_, OGRSTSymbolAngle, &is_absent);
+    if (is_absent == 0) properties["heading_deg"] = angle;
+    properties["icon-size"] = kIcon_px * scale;
+  }
+
   void add_width(json& properties) const {
     int is_absent = 1;
     const double width_px = gdal().OGR_ST_GetParamDbl(tool_, OGRSTPenWidth, &is_absent);
@@ -129,17 +156,10 @@ class StyleTool {
   OGRStyleToolH tool_;
 };
 
-/// Adds the scale of a KML icon as one of the three sizes of simplestyle. GDAL would convert it, as sizes that have a
-/// unit; these are of other formats and are left out.
-void add_icon_scale(std::string_view style, json& properties) {
-  constexpr std::string_view kSize = ",s:";
-  const std::size_t at = style.find(kSize);
-  if (at == std::string_view::npos || properties.contains("marker-size")) return;
-  const std::string_view said = style.substr(at + kSize.size());
-  double scale = 0.0;
-  const auto [end, fault] = std::from_chars(said.data(), said.data() + said.size(), scale);
-  if (fault != std::errc() || end == said.data() + said.size() || (*end != ',' && *end != ')')) return;
+/// Adds the scale of a KML icon as one of the three sizes of simplestyle.
+void add_marker_size(double scale, json& properties) {
   constexpr double kSmall = 0.75, kLarge = 1.25;
+  if (properties.contains("marker-size")) return;
   properties["marker-size"] = scale < kSmall ? "small" : scale > kLarge ? "large" : "medium";
 }
 
@@ -166,7 +186,7 @@ json properties_of(OGRFeatureH feature, OGRFeatureDefnH definition) {
   return properties;
 }
 
-void add_style(OGRFeatureH feature, json& properties) {
+void add_style(OGRFeatureH feature, bool with_icons, json& properties) {
   const char* const style = gdal().OGR_F_GetStyleString(feature);
   if (style == nullptr) return;
   const std::unique_ptr<void, decltype(gdal().OGR_SM_Destroy)> styles(gdal().OGR_SM_Create(nullptr),
@@ -180,7 +200,9 @@ void add_style(OGRFeatureH feature, json& properties) {
       tool.add_colour(OGRSTBrushFColor, "fill", "fill-opacity", properties);
     } else if (tool.kind() == OGRSTCSymbol) {
       tool.add_colour(OGRSTSymbolColor, "marker-color", nullptr, properties);
-      add_icon_scale(style, properties);
+      const auto scale = icon_scale(style);
+      if (scale) add_marker_size(*scale, properties);
+      if (with_icons) tool.add_icon(scale.value_or(1.0), properties);
     }
   }
 }

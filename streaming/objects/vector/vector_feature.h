@@ -14,7 +14,7 @@ namespace terrella {
 /// thread: that of the feature
 [[nodiscard]] nlohmann::json properties_of(OGRFeatureH feature, OGRFeatureDefnH definition);
 /// Adds the colours and widths of a feature's style, under the names of simplestyle, to properties that lack them.
-/// thread: that of the feature
-void add_style(OGRFeatureH feature, nlohmann::json& properties);
+/// `with_icons`: also pictures, as KML names them, that are no addresses. thread: that of the feature
+void add_style(OGRFeatureH feature, bool with_icons, nlohmann::json& properties);
 
 }  // namespace terrella

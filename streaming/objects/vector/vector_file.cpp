@@ -45,6 +45,11 @@ bool holds_shapefile(const fs::path& folder) {
   return false;
 }
 
+bool is_zip_name(const fs::path& path) {
+  const std::string ending = lower_ending(path);
+  return ending == ".zip" || ending == ".shz" || ending == ".kmz";
+}
+
 /// Sum of the lengths that a ZIP file states of its files. GDAL reads no more of each.
 Result<std::uint64_t> unpacked_bytes(const std::string& zip) {
   constexpr int kMostFiles = 10'000;
@@ -60,23 +65,6 @@ Result<std::uint64_t> unpacked_bytes(const std::string& zip) {
     sum += std::min(static_cast<std::uint64_t>(found.st_size), std::uint64_t{1} << 40);
   }
   return sum;
-}
-
-Status check_length(const fs::path& path, bool is_zip, bool is_kml, const std::string& zip) {
-  std::error_code problem;
-  if (fs::is_directory(path, problem)) return Done{};
-  const std::uint64_t bytes = fs::file_size(path, problem);
-  if (problem) return Error{problem.message()};
-  const std::uint64_t most = is_kml && !is_zip ? kMaxVectorUnpackedBytes : kMaxObjectFileBytes;
-  if (bytes > most) return Error{fmt::format("{} bytes are more than the {} that are read; divide it", bytes, most)};
-  if (!is_zip) return Done{};
-  const auto unpacked = unpacked_bytes(zip);
-  if (!unpacked) return unpacked.error();
-  if (*unpacked > kMaxVectorUnpackedBytes) {
-    return Error{fmt::format("its files have {} bytes when unpacked, more than the {} that are read; divide them",
-                             *unpacked, kMaxVectorUnpackedBytes)};
-  }
-  return Done{};
 }
 
 /// Opens by one driver. No driver of a network or of links to other files is ever asked.
@@ -126,6 +114,24 @@ const char* vector_driver_of(const fs::path& path) {
   return found == kVectorDrivers.end() ? nullptr : found->second;
 }
 
+Status check_vector_length(const fs::path& path) {
+  std::error_code problem;
+  if (fs::is_directory(path, problem)) return Done{};
+  const std::uint64_t bytes = fs::file_size(path, problem);
+  if (problem) return Error{problem.message()};
+  const bool is_zip = is_zip_name(path);
+  const std::uint64_t most = lower_ending(path) == ".kml" ? kMaxVectorUnpackedBytes : kMaxObjectFileBytes;
+  if (bytes > most) return Error{fmt::format("{} bytes are more than the {} that are read; divide it", bytes, most)};
+  if (!is_zip) return Done{};
+  const auto unpacked = unpacked_bytes("/vsizip/" + path.string());
+  if (!unpacked) return unpacked.error();
+  if (*unpacked > kMaxVectorUnpackedBytes) {
+    return Error{fmt::format("its files have {} bytes when unpacked, more than the {} that are read; divide them",
+                             *unpacked, kMaxVectorUnpackedBytes)};
+  }
+  return Done{};
+}
+
 Result<VectorFile> open_vector_file(const fs::path& path) {
   const auto fault = [&](const std::string& what) { return Error{fmt::format("{}: {}", path.string(), what)}; };
   std::error_code problem;
@@ -135,11 +141,10 @@ Result<VectorFile> open_vector_file(const fs::path& path) {
   if (driver == nullptr) return fault("it is no vector file by its name");
   if (const auto loaded = load_gdal(); !loaded) return fault(loaded.error().message);
   const GdalMessages messages;
-  const std::string ending = lower_ending(whole);
-  const bool is_zip = ending == ".zip" || ending == ".shz" || ending == ".kmz";
+  const bool is_zip = is_zip_name(whole);
   const std::string zip = "/vsizip/" + whole.string();
   const bool is_kml = std::string_view(driver) == kKml;
-  if (const Status fits = check_length(whole, is_zip, is_kml, zip); !fits) return fault(fits.error().message);
+  if (const Status fits = check_vector_length(whole); !fits) return fault(fits.error().message);
   if (is_kml) {
     if (const Status good = check_kml(is_zip ? zip : whole.string(), is_zip); !good) return fault(good.error().message);
   }

@@ -24,6 +24,9 @@ struct VectorFile {
 [[nodiscard]] GdalSettings::Settings vector_settings();
 /// The driver that may open a file of this name; null if none may. thread: any
 [[nodiscard]] const char* vector_driver_of(const std::filesystem::path& path);
+/// Fails if a file is longer than kMaxVectorUnpackedBytes or kMaxObjectFileBytes allow, also when unpacked. GDAL is
+/// loaded. The error does not name the file. Blocks. thread: any
+[[nodiscard]] Status check_vector_length(const std::filesystem::path& path);
 /// Opens a vector file by that driver alone. The error names the file. Blocks. thread: any
 [[nodiscard]] Result<VectorFile> open_vector_file(const std::filesystem::path& path);
 
