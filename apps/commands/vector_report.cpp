@@ -50,15 +50,14 @@ std::string vector_report(const std::filesystem::path& path, const VectorFacts& 
   if (json) {
     Json layers = Json::array();
     for (const VectorLayerFacts& layer : facts.layers) layers.push_back(layer_json(layer));
-    const Json all{{"path", path.string()},
-                   {"kind", "vector"},
-                   {"format", facts.format},
-                   {"network_links", facts.has_links},
-                   {"layers", std::move(layers)}};
+    const Json all{{"path", path.string()},      {"kind", "vector"},
+                   {"format", facts.format},     {"network_links", facts.has_links},
+                   {"pictures", facts.pictures}, {"layers", std::move(layers)}};
     return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   }
   std::string text = fmt::format("vector file  {}\nformat       {}\n", one_line(path.string()), facts.format);
   if (facts.has_links) text += "links        its NetworkLink elements are not followed\n";
+  if (facts.pictures > 0) text += fmt::format("pictures     {}, as a layer of imagery\n", facts.pictures);
   for (const VectorLayerFacts& layer : facts.layers) text += layer_text(layer);
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -27,7 +28,8 @@ struct VectorLayerFacts {
 struct VectorFacts {
   std::string format;  ///< GDAL's name of the format
   std::vector<VectorLayerFacts> layers;
-  bool has_links = false;  ///< KML with network links, which are not followed
+  bool has_links = false;    ///< KML with network links, which are not followed
+  std::size_t pictures = 0;  ///< ground overlays of KML, which are imagery
 };
 
 /// Most layers that describe_vector() describes.

@@ -4,8 +4,10 @@ import json
 import os
 import subprocess
 import unittest
+import zipfile
 from pathlib import Path
 
+import pictures
 import png
 from real_window import PROGRAM, SIZE, WindowTest, wait_until
 
@@ -164,6 +166,28 @@ class Projects(WindowTest):
             self.assertEqual(viewer.quit(), 0)
             marks = json.loads((self.kept / "terrella" / "drawings.geojson").read_text(encoding="utf-8"))
             self.assertEqual([one["properties"]["title"] for one in marks["features"]], ["Here"])
+
+    def test_a_kmz_file_keeps_its_pictures_and_its_places(self):
+        kmz = self.folder / "trip.kmz"
+        with zipfile.ZipFile(kmz, "w") as file:
+            file.writestr("doc.kml", '<kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>Here</name><Point><coordinates>'
+                          "-25,20</coordinates></Point></Placemark><GroundOverlay><Icon><href>p.png</href></Icon><LatLonBox><north>30</north>"
+                          "<south>10</south><east>-30</east><west>-50</west><rotation>20</rotation></LatLonBox></GroundOverlay>"
+                          "</Document></kml>")
+            file.writestr("p.png", pictures.png(32, 32, (250, 200, 0)))
+        viewer = self.start("--camera", "20,-40,9000000", bare=False)
+        self.open_file(viewer, kmz)
+        expected = [("imagery", "", 1), ("imagery", "trip.kmz", 1), ("objects", "trip.kmz", 1)]
+        self.assertEqual(self.kept_layers(viewer, 3), expected)
+        before = png.read(self.saved_picture(viewer, "before"))
+        self.assertEqual(viewer.quit(), 0)
+        middle = png.pixel(before, SIZE[0], SIZE[1])
+        self.assertGreater(min(middle[:2]), 100, "the picture, by day")
+        self.assertLess(middle[2], 60)
+        viewer = self.start(bare=False)
+        self.assertEqual(self.kept_layers(viewer, 3), expected)
+        self.assertEqual(png.read(self.saved_picture(viewer, "after")), before)
+        self.assertEqual(viewer.quit(), 0)
 
     def test_a_missing_file_is_named_and_the_rest_opens(self):
         viewer = self.start(bare=False)

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/scene_objects.h"
 #include "apps/open_scene/swipe_sides.h"
 #include "apps/process/console.h"
@@ -33,6 +34,17 @@ SourceOptions described(const LayerRow& row) {
   source.numbers.stretch = {
       {.kind = StretchRule::Kind::range, .low = row.look.numbers->low, .high = row.look.numbers->high}};
   return source;
+}
+
+/// The smallest part of the planet that has both; nullopt if that is most of it.
+std::optional<GeoRect> around(const std::optional<GeoRect>& a, const std::optional<GeoRect>& b) {
+  if (!a || !b) return a ? a : b;
+  ObjectScene corners;
+  for (const GeoRect& part : {*a, *b}) {
+    corners.points.push_back({.place = {.lat = part.south, .lon = part.west}});
+    corners.points.push_back({.place = {.lat = part.north, .lon = part.east}});
+  }
+  return bounds_of(corners);
 }
 
 }  // namespace
@@ -310,6 +322,14 @@ bool Layers::cancel() {
 }
 
 void Layers::add(OpenedFile file) {
+  std::optional<ObjectFile> features = std::move(file.features);
+  const std::filesystem::path path = file.path;
+  std::optional<GeoRect> part = add_row(std::move(file));
+  if (features) part = around(part, add_row({.path = path, .what = *std::move(features)}));
+  if (part) fly_over(context_, *part);
+}
+
+std::optional<GeoRect> Layers::add_row(OpenedFile file) {
   LayerRow row{.name = shown_name(file.path)};
   row.source.address = file.path.string();
   row.objects = {.file = file.path.string(), .model_place = file.model_place};
@@ -328,12 +348,15 @@ void Layers::add(OpenedFile file) {
     }
     added = add_objects(std::move(objects), row);
   }
-  if (!added) return say(row.name + ": " + added.error().message);
-  if (row.bounds) fly_over(context_, *row.bounds);
+  if (!added) {
+    say(row.name + ": " + added.error().message);
+    return {};
+  }
+  const std::optional<GeoRect> part = row.bounds;
   insert(std::move(row));
   const Status kept = remember_opened(std::array{file.path.string()});
   say(kept ? told : kept.error().message);
-  if (file.features) add({.path = file.path, .what = *std::move(file.features)});
+  return part;
 }
 
 Status Layers::add_tiles(ImageryLayer layer, LayerRow& row) {

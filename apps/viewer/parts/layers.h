@@ -77,6 +77,8 @@ class Layers : public Panel {
   void remove(std::size_t row);
   [[nodiscard]] bool remove_row(std::size_t row);
   void add(OpenedFile file);
+  /// Returns the part of the planet that the new layer has; nullopt for most of the planet, and after a failure.
+  std::optional<GeoRect> add_row(OpenedFile file);
   [[nodiscard]] Status add_tiles(ImageryLayer layer, LayerRow& row);
   [[nodiscard]] Status add_heights(const ElevationSource& heights, LayerRow& row);
   [[nodiscard]] Status add_objects(ObjectFile file, LayerRow& row);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "streaming/objects/vector/ground_overlays.h"
 #include "streaming/objects/vector/vector_file.h"
 
 namespace terrella {
@@ -47,6 +48,13 @@ VectorLayerFacts facts_of(OGRLayerH layer) {
   return facts;
 }
 
+std::size_t pictures_of(const std::filesystem::path& kml) {
+  const auto file = KmlFile::open(kml);
+  if (!file) return 0;
+  const auto overlays = read_ground_overlays(*file);
+  return overlays ? overlays->pictures.size() : 0;
+}
+
 }  // namespace
 
 Result<VectorFacts> describe_vector(const std::filesystem::path& path) {
@@ -64,6 +72,7 @@ Result<VectorFacts> describe_vector(const std::filesystem::path& path) {
     if (OGRLayerH layer = gdal().GDALDatasetGetLayer(file->dataset.get(), i)) facts.layers.push_back(facts_of(layer));
   }
   if (!messages.error().empty()) return Error{fmt::format("{}: {}", path.string(), messages.error())};
+  if (file->driver == "LIBKML") facts.pictures = pictures_of(path);
   if (facts.layers.empty()) return Error{path.string() + ": it holds no layers of features"};
   return facts;
 }
