@@ -28,7 +28,7 @@ struct VectorLayerFacts {
 struct VectorFacts {
   std::string format;  ///< GDAL's name of the format
   std::vector<VectorLayerFacts> layers;
-  bool has_links = false;    ///< KML with network links, which are not followed
+  bool has_links = false;    ///< KML with links to features, or to a network, which are not followed
   std::size_t pictures = 0;  ///< ground overlays of KML, which are imagery
 };
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "streaming/objects/vector_objects.h"
 #include "tests/mosaic/cells.h"
 
 namespace terrella::test {
@@ -136,6 +137,9 @@ TEST_F(OverlayList, LinksInTheFolderAndInAKmzFileAreFollowed) {
   EXPECT_EQ(list->entries[1].path, folder_ / "1/a.png");
   EXPECT_EQ(list->entries[1].order, 2.0);
   EXPECT_THAT(list->remarks, SizeIs(0));
+  const auto features = read_objects(path);
+  ASSERT_TRUE(features) << features.error().message;
+  EXPECT_THAT(features->complaints, SizeIs(0)) << "its links lead to pictures alone";
   const std::string zip =
       fmt::format("cd '{}' && python3 -m zipfile -c s.kmz doc.kml 0.png 1", folder_.path().string());
   ASSERT_EQ(std::system(zip.c_str()), 0);  // NOLINT(cert-env33-c): a fixed command

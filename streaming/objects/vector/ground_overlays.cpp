@@ -84,10 +84,12 @@ class OverlayWalk : public pugi::xml_tree_walker {
     const std::string_view name = local_name(node);
     if (name == "GroundOverlay") take(node);
     if (name == "NetworkLink") link(node);
+    has_places_ |= name == "Placemark";
     return found_.pictures.size() < kMostGroundOverlays;
   }
 
   [[nodiscard]] const std::vector<std::string>& links() const { return links_; }
+  [[nodiscard]] bool has_places() const { return has_places_; }
 
  private:
   void complain(const pugi::xml_node& overlay, const std::string& what) {
@@ -124,6 +126,7 @@ class OverlayWalk : public pugi::xml_tree_walker {
       return links_.push_back(KmlFile::resolved(document_, reference));
     }
     found_.complaints.push_back(fmt::format("its link to {} is not followed", reference));
+    found_.all_linked = false;
   }
 
   static bool is_shown(pugi::xml_node node) {
@@ -136,6 +139,7 @@ class OverlayWalk : public pugi::xml_tree_walker {
   std::string document_;
   GroundOverlays& found_;
   std::vector<std::string> links_;
+  bool has_places_ = false;
 };
 
 Result<std::vector<std::string>> read_document(const KmlFile& file, const std::string& name, GroundOverlays& found) {
@@ -146,6 +150,7 @@ Result<std::vector<std::string>> read_document(const KmlFile& file, const std::s
   if (!parsed) return Error{fmt::format("{}: broken XML at byte {}: {}", name, parsed.offset, parsed.description())};
   OverlayWalk walk(name, found);
   document.traverse(walk);
+  if (walk.has_places() && name != file.document()) found.all_linked = false;
   return walk.links();
 }
 
@@ -163,6 +168,7 @@ Result<GroundOverlays> read_ground_overlays(const KmlFile& file) {
       return Error{fmt::format("{}: {}", file.path().string(), links.error().message)};
     if (!links) {
       found.complaints.push_back(links.error().message + "; it is left out");
+      found.all_linked = false;
       continue;
     }
     for (const std::string& link : *links) {

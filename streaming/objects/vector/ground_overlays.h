@@ -26,6 +26,7 @@ struct GroundOverlay {
 struct GroundOverlays {
   std::vector<GroundOverlay> pictures;  ///< in the order of the documents
   std::vector<std::string> complaints;  ///< what is left out, and what is drawn otherwise than the file says
+  bool all_linked = true;  ///< each link leads to a document that was read and has no features but pictures
 };
 
 /// Reads the ground overlays of a KML file, and of the KML files in its folder or in the KMZ file that it links to, so

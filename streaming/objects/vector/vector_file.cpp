@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "streaming/objects/vector/ground_overlays.h"
 #include "streaming/objects/vector/kml_check.h"
 #include "streaming/objects/vector_objects.h"
 
@@ -102,6 +103,14 @@ bool has_text(const std::string& name, std::string_view mark) {
   return found;
 }
 
+/// True if the links of a KML file lead to pictures alone, which are imagery.
+bool links_to_pictures(const fs::path& path) {
+  const auto kml = KmlFile::open(path);
+  if (!kml) return false;
+  const auto overlays = read_ground_overlays(*kml);
+  return overlays && overlays->all_linked;
+}
+
 }  // namespace
 
 GdalSettings::Settings vector_settings() { return {{"LIBKML_EXTERNAL_STYLE", "NO"}, {"LIBKML_RESOLVE_STYLE", "YES"}}; }
@@ -158,7 +167,8 @@ Result<VectorFile> open_vector_file(const fs::path& path) {
   // A KMZ file of GDAL's has its layers beside doc.kml, which links to them; GDAL reads those.
   VSIStatBufL layers{};
   const bool has_layers = is_zip && gdal().VSIStatExL((zip + "/layers").c_str(), &layers, VSI_STAT_EXISTS_FLAG) == 0;
-  file.has_links = is_kml && !has_layers && has_text(is_zip ? zip + "/doc.kml" : whole.string(), "<NetworkLink>");
+  file.has_links = is_kml && !has_layers && has_text(is_zip ? zip + "/doc.kml" : whole.string(), "<NetworkLink>") &&
+                   !links_to_pictures(whole);
   return file;
 }
 

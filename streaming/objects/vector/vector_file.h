@@ -17,7 +17,7 @@ struct CloseVectorFile {
 struct VectorFile {
   std::unique_ptr<void, CloseVectorFile> dataset;
   std::string driver;      ///< GDAL's name of the format
-  bool has_links = false;  ///< KML with network links, which are not followed
+  bool has_links = false;  ///< KML with links to features, or to a network, which are not followed
 };
 
 /// Settings that must hold while a vector file is opened and read: shared styles of KML count, styles elsewhere do not.
