@@ -2,17 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "streaming/objects/feature_taker.h"
 #include "streaming/objects/vector/kml_file.h"
 #include "streaming/objects/vector/vector_feature.h"
 #include "streaming/objects/vector/vector_file.h"
+#include "streaming/objects/vector/ways_to_degrees.h"
 
 namespace terrella {
 namespace {
@@ -22,28 +23,6 @@ using nlohmann::json;
 struct DestroyFeature {
   void operator()(OGRFeatureH feature) const { gdal().OGR_F_Destroy(feature); }
 };
-struct DestroyTransformation {
-  void operator()(OGRCoordinateTransformationH way) const { gdal().OCTDestroyCoordinateTransformation(way); }
-};
-struct DestroySystem {
-  void operator()(OGRSpatialReferenceH system) const { gdal().OSRDestroySpatialReference(system); }
-};
-using Transformation = std::unique_ptr<void, DestroyTransformation>;
-
-/// Longitude and latitude on WGS84, or on the system's own body.
-std::unique_ptr<void, DestroySystem> degrees_beside(OGRSpatialReferenceH system) {
-  constexpr double kEarth_m = 6'378'137.0, kAlike_m = 10'000.0;  // no ellipsoid of the Earth differs by 2 km
-  std::unique_ptr<void, DestroySystem> degrees;
-  OGRErr unknown = OGRERR_NONE;
-  if (std::abs(gdal().OSRGetSemiMajor(system, &unknown) - kEarth_m) > kAlike_m && unknown == OGRERR_NONE) {
-    degrees.reset(gdal().OSRCloneGeogCS(system));
-  } else {
-    degrees.reset(gdal().OSRNewSpatialReference(nullptr));
-    if (gdal().OSRSetWellKnownGeogCS(degrees.get(), "WGS84") != OGRERR_NONE) return nullptr;
-  }
-  if (degrees) gdal().OSRSetAxisMappingStrategy(degrees.get(), OAMS_TRADITIONAL_GIS_ORDER);
-  return degrees;
-}
 
 /// Reads the layers of a file, one feature at a time.
 class LayerReader {
@@ -63,7 +42,9 @@ class LayerReader {
     if (file_.has_links) taker_.complain_of("its files of NetworkLink elements are not read; open them one by one");
     if (above_sea_) {
       taker_.complain_of(
-          "its heights over the sea are taken as heights over the ellipsoid: they differ by up to 110 m");
+          "its heights over the sea are taken as heights over the ellipsoid, which differ by up to 110 m, as PROJ's "
+          "grid "
+          "of the geoid is missing; install the package proj-data");
     }
   }
 
@@ -87,8 +68,7 @@ class LayerReader {
       }
       return Done{};
     }
-    const auto degrees = degrees_beside(system);
-    if (degrees) way.reset(gdal().OCTNewCoordinateTransformation(system, degrees.get()));
+    way = way_to_degrees(system);
     return way ? Status(Done{}) : Error{"no way from its coordinate system to degrees: " + messages.error()};
   }
 
@@ -118,16 +98,16 @@ class LayerReader {
       return taker_.complain_of(
           fmt::format("feature {}: its coordinates have no place in degrees: {}", index + 1, messages.error()));
     }
+    json properties = properties_of(feature, definition);
+    if (is_kml_) follow_kml(properties, geometry);
     Result<json> shape = geojson_of(geometry);
     if (!shape) return taker_.complain_of(fmt::format("feature {}: {}", index + 1, shape.error().message));
-    json properties = properties_of(feature, definition);
     add_style(feature, is_kml_, properties);
     if (!properties.contains("name") && properties.contains("Name")) properties["name"] = properties["Name"];
     if (is_kml_ && is_overlay(properties, *shape)) {
       ++overlays_;
       return;
     }
-    if (is_kml_) follow_kml(properties, geometry);
     taker_.take({{"type", "Feature"}, {"properties", std::move(properties)}, {"geometry", *std::move(shape)}}, index);
   }
 
@@ -142,7 +122,10 @@ class LayerReader {
     const std::string said = mode != properties.end() && mode->is_string() ? mode->get<std::string>() : "";
     const bool has_heights = said == "absolute" || said == "relativeToGround";
     properties["altitude-mode"] = has_heights ? said : "clampToGround";
-    above_sea_ |= said == "absolute" && geometry != nullptr && gdal().OGR_G_Is3D(geometry) != 0;
+    if (said == "absolute" && geometry != nullptr && gdal().OGR_G_Is3D(geometry) != 0) {
+      if (!std::exchange(asked_sea_, true)) from_sea_ = way_from_sea_level();
+      above_sea_ |= !from_sea_ || gdal().OGR_G_Transform(geometry, from_sea_.get()) != OGRERR_NONE;
+    }
     for (const char* name : {"tessellate", "extrude", "visibility", "drawOrder"}) properties.erase(name);
   }
 
@@ -151,6 +134,8 @@ class LayerReader {
   FeatureTaker& taker_;
   std::size_t count_ = 0;
   std::size_t overlays_ = 0;
+  Transformation from_sea_ = {};  ///< null: not needed so far, or PROJ lacks the grid
+  bool asked_sea_ = false;
   bool above_sea_ = false;
 };
 

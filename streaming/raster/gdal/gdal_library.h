@@ -35,7 +35,7 @@ namespace terrella {
   X(GDALRasterIOEx) X(GDALReadBlock) X(GDALSetCacheMax64) X(GDALWarp) X(GDALWarpAppOptionsFree) \
   X(GDALWarpAppOptionsNew) X(OSRExportToWktEx) X(OSRGetName) X(OSRIsLocal) \
   X(CPLForceToASCII) X(CPLIsUTF8) X(CSLDestroy) X(GDALDatasetGetLayer) X(GDALDatasetGetLayerCount) \
-  X(OCTDestroyCoordinateTransformation) X(OCTNewCoordinateTransformation) X(OGR_FD_GetFieldCount) \
+  X(OCTDestroyCoordinateTransformation) X(OCTNewCoordinateTransformation) X(OCTTransform) X(OGR_FD_GetFieldCount) \
   X(OGR_FD_GetFieldDefn) X(OGR_F_Destroy) X(OGR_F_GetFieldAsDouble) X(OGR_F_GetFieldAsInteger64) \
   X(OGR_F_GetFieldAsString) X(OGR_F_GetGeometryRef) X(OGR_F_GetStyleString) X(OGR_F_IsFieldSetAndNotNull) \
   X(OGR_Fld_GetNameRef) X(OGR_Fld_GetSubType) X(OGR_Fld_GetType) X(OGR_GT_Flatten) X(OGR_G_DestroyGeometry) \
@@ -45,9 +45,9 @@ namespace terrella {
   X(OGR_L_GetName) X(OGR_L_GetNextFeature) X(OGR_L_GetSpatialRef) X(OGR_L_ResetReading) X(OGR_SM_Create) \
   X(OGR_SM_Destroy) X(OGR_SM_GetPart) X(OGR_SM_GetPartCount) X(OGR_ST_Destroy) X(OGR_ST_GetParamDbl) \
   X(OGR_ST_GetParamStr) X(OGR_ST_GetType) X(OGR_ST_SetUnit) X(OSRCloneGeogCS) X(OSRDestroySpatialReference) \
-  X(OSRGetSemiMajor) X(OSRNewSpatialReference) X(OSRSetAxisMappingStrategy) X(OSRSetWellKnownGeogCS) \
+  X(OSRGetSemiMajor) X(OSRNewSpatialReference) X(OSRSetAxisMappingStrategy) \
   X(OGRGeometryTypeToName) X(OGR_GetFieldTypeName) X(OGR_L_GetFeatureCount) X(OGR_L_GetGeomType) \
-  X(OSRGetAuthorityCode) X(OSRGetAuthorityName) \
+  X(OSRGetAuthorityCode) X(OSRGetAuthorityName) X(OSRIsCompound) X(OSRSetFromUserInput) \
   X(VSIFCloseL) X(VSIFOpenL) X(VSIFReadL) X(VSIReadDirRecursive) X(VSIStatExL) \
   X(VSIAllocFilesystemPluginCallbacksStruct) X(VSIFree) X(VSIFreeFilesystemPluginCallbacksStruct) \
   X(VSIInstallPluginHandler)
