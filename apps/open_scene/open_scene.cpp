@@ -164,7 +164,8 @@ void SceneOpener::add_pictures_of_objects() {
 Status SceneOpener::add_object_layers() {
   std::vector<ObjectsOption> layers = options_.object_layers;
   if (!options_.objects.empty())
-    layers.insert(layers.begin(), {.file = options_.objects, .style = options_.object_style});
+    layers.insert(layers.begin(),
+                  {.file = options_.objects, .style = options_.object_style, .cluster_px = options_.cluster_px});
   for (const ObjectsOption& option : layers) {
     auto added = add_objects(*scene_.globe, option, options_.keep_features);
     if (!added) {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -143,10 +144,12 @@ struct ScenePicture::Parts {
   bool checked_fills = false;
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
+  std::map<LayerId, PointClusters> clusters{};   ///< of layers that were added later
 
   Result<GlobeOptions> prepare(const Body& body);
   Status open();
   void check_fills();
+  Status update_clusters();
   Status add_drawings();
   /// The part of the planet with data, which takes a look at the tiles: once.
   const std::optional<GeoRect>& with_data();
@@ -214,11 +217,33 @@ Camera ScenePicture::first_camera() const {
   return default_camera(parts_->with_data(), parts_->scene.body.ellipsoid, said.size);
 }
 
+Status ScenePicture::set_clusters(LayerId layer, std::span<const ClusterPoint> points, double radius_px) {
+  parts_->clusters.erase(layer);
+  if (radius_px == 0.0) return Done{};
+  Result<PointClusters> made = PointClusters::make(layer, points, radius_px);
+  if (!made) return made.error();
+  parts_->clusters.emplace(layer, *std::move(made));
+  return Done{};
+}
+
 bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
 
 const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
   if (!part) part = part_with_data(scene.images.front().source.address, scene.base.grid.bounds);
   return *part;
+}
+
+Status ScenePicture::Parts::update_clusters() {
+  for (const SceneObjects& objects : scene.objects) {
+    if (!objects.clusters) continue;
+    if (Status done = objects.clusters->update(*scene.globe, command.scene.size); !done) return done;
+  }
+  const std::vector<LayerId> layers = scene.globe->objects();
+  std::erase_if(clusters, [&](const auto& one) { return std::ranges::find(layers, one.first) == layers.end(); });
+  for (auto& [layer, points] : clusters) {
+    if (Status done = points.update(*scene.globe, command.scene.size); !done) return done;
+  }
+  return Done{};
 }
 
 /// Reports areas without a fill, once for all pictures.
@@ -239,6 +264,8 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   const Viewport size = own.command.scene.size;
   const unsigned framebuffer = own.target->framebuffer();
   Globe& globe = *own.scene.globe;
+  globe.set_camera(camera);
+  if (const Status clustered = own.update_clusters(); !clustered) return clustered.error();
   render_all(globe, own.command, camera, framebuffer);
   const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
   if (StopSignals::came()) return Error{where + "stopped; no picture was written"};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "base/result.h"
 #include "codecs/image.h"
 #include "globe/globe.h"
+#include "globe/point_clusters.h"
 
 namespace terrella {
 
@@ -46,8 +48,10 @@ class ScenePicture {
 
   [[nodiscard]] Globe& globe();
   [[nodiscard]] Result<LayerId> add(const OverlayOption& overlay);  ///< on top; see add_overlay()
-  [[nodiscard]] Camera first_camera() const;                        ///< --camera, or default_camera()
-  [[nodiscard]] bool has_all_objects() const;                       ///< false if the file of --objects has faults
+  /// Draws points of an object layer in clusters from now on; a radius of 0: not any more, of objects that are new.
+  [[nodiscard]] Status set_clusters(LayerId layer, std::span<const ClusterPoint> points, double radius_px);
+  [[nodiscard]] Camera first_camera() const;   ///< --camera, or default_camera()
+  [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).
   [[nodiscard]] Result<Rendered> draw(const Camera& camera);

@@ -88,11 +88,12 @@ ObjectFile objects_of(const py::object& geojson, const py::object& style) {
 /// Features of an object layer, for styles.
 struct LayerFeatures {
   std::vector<FeatureParts> parts = {};
-  std::size_t count = 0;  ///< all features, drawn or not
+  std::size_t count = 0;    ///< all features, drawn or not
+  double cluster_px = 0.0;  ///< radius of their clusters; 0: none
 };
 
-LayerFeatures layer_features(const ObjectFile& file) {
-  return {features_of(file.scene), static_cast<std::size_t>(file.next) - 1};
+LayerFeatures layer_features(const ObjectFile& file, double cluster_px) {
+  return {features_of(file.scene), static_cast<std::size_t>(file.next) - 1, cluster_px};
 }
 
 const char* kind_name(ObjectKind kind) {
@@ -151,11 +152,17 @@ class PythonGlobe {
   /// Calls a function with the globe on its thread, without Python's lock.
   template <class Work>
   auto with_globe(Work work) {
-    std::optional<decltype(work(std::declval<Globe&>()))> result;
+    return with_picture([&work](ScenePicture& picture) { return work(picture.globe()); });
+  }
+
+  /// The same with the picture.
+  template <class Work>
+  auto with_picture(Work work) {
+    std::optional<decltype(work(std::declval<ScenePicture&>()))> result;
     {
       const py::gil_scoped_release others_run;
       thread_.run([&] {
-        if (picture_) result.emplace(work(picture_->globe()));
+        if (picture_) result.emplace(work(*picture_));
       });
     }
     if (!result) raise_error(kClosed);
@@ -235,20 +242,30 @@ py::dict pick(PythonGlobe& self, double x, double y) {
   return answer;
 }
 
-std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py::object& style) {
+std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py::object& style, double cluster_px) {
   ObjectFile file = objects_of(geojson, style);
-  LayerFeatures features = layer_features(file);
-  const auto layer = static_cast<std::uint64_t>(
-      value_or_raise(self.with_globe([&](Globe& globe) { return globe.add_objects(std::move(file.scene)); })));
+  LayerFeatures features = layer_features(file, cluster_px);
+  const auto added = self.with_picture([&](ScenePicture& picture) -> Result<LayerId> {
+    const std::vector<ClusterPoint> points = cluster_points(file.scene);
+    auto layer = picture.globe().add_objects(std::move(file.scene));
+    if (!layer) return layer;
+    const Status clustered = picture.set_clusters(*layer, points, cluster_px);
+    if (!clustered) static_cast<void>(picture.globe().remove(*layer));
+    return clustered ? layer : clustered.error();
+  });
+  const auto layer = static_cast<std::uint64_t>(value_or_raise(added));
   self.features()[layer] = std::move(features);
   return layer;
 }
 
 void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson, const py::object& style) {
   ObjectFile file = objects_of(geojson, style);
-  LayerFeatures features = layer_features(file);
-  value_or_raise(
-      self.with_globe([&](Globe& globe) { return globe.set_objects(LayerId{layer}, std::move(file.scene)); }));
+  LayerFeatures features = layer_features(file, self.features()[layer].cluster_px);
+  value_or_raise(self.with_picture([&](ScenePicture& picture) -> Status {
+    const std::vector<ClusterPoint> points = cluster_points(file.scene);
+    Status set = picture.globe().set_objects(LayerId{layer}, std::move(file.scene));
+    return set ? picture.set_clusters(LayerId{layer}, points, features.cluster_px) : set;
+  }));
   self.features()[layer] = std::move(features);
 }
 
@@ -357,10 +374,12 @@ void add_layer_methods(GlobeClass& globe) {
       .def("add_imagery", &PythonGlobe::add_imagery, py::arg("tileset"), py::arg("opacity") = 1.0,
            "add_imagery(self, tileset, opacity=1.0)\n--\n\n"
            "Add a layer of imagery on top: all that render() takes as TILESET. Returns the layer's number.")
-      .def("add_objects", &add_objects, py::arg("geojson"), py::arg("style") = py::none(),
-           "add_objects(self, geojson, style=None)\n--\n\n"
+      .def("add_objects", &add_objects, py::arg("geojson"), py::arg("style") = py::none(), py::arg("cluster") = 0.0,
+           "add_objects(self, geojson, style=None, cluster=0)\n--\n\n"
            "Add a layer of objects: the path of a file (GeoJSON, KML, GPX, shapefile, GeoPackage, ...), a dict, or an "
-           "object with __geo_interface__. A style is a dict or the path of a JSON file. Returns the layer's number.")
+           "object with __geo_interface__. A style is a dict or the path of a JSON file. Points within `cluster` "
+           "pixels, 10 to "
+           "400, are drawn as one disc with their number; 0: no clusters. Returns the layer's number.")
       .def("set_objects", &set_objects, py::arg("layer"), py::arg("geojson"), py::arg("style") = py::none(),
            "set_objects(self, layer, geojson, style=None)\n--\n\nReplace the objects of a layer.")
       .def("set_style", &set_style, py::arg("layer"), py::arg("style"), py::arg("values") = py::none(),

@@ -3,6 +3,7 @@
 set(TERRELLA_PUBLIC_HEADERS
   engine/globe/data_files.h
   engine/globe/globe.h
+  engine/globe/point_clusters.h
   engine/geo/great_circle.h
   engine/geo/ranges.h
   engine/geo/measure.h

@@ -51,7 +51,11 @@ SceneOptions full_scene(const ScratchFolder& folder) {
   scene.elevation_shown = false;
   scene.exaggeration = 2.5;
   scene.object_layers = {
-      {.file = (folder / "a.geojson").string(), .style = (folder / "s.json").string(), .shown = false, .opacity = 0.75},
+      {.file = (folder / "a.geojson").string(),
+       .style = (folder / "s.json").string(),
+       .shown = false,
+       .opacity = 0.75,
+       .cluster_px = 40.0},
       {.file = (folder / "b.glb").string(),
        .model_place = Geodetic{.lat = Angle::degrees(46.1), .lon = Angle::degrees(7.7), .height_m = 12.5}}};
   scene.object_layers.front().style_over = R"({"fill":["step",["get","value"],"#440154",10,"#fde725"]})";

@@ -12,6 +12,7 @@
 #include "apps/open_scene/options/surface_options.h"
 #include "apps/open_scene/project/read_project.h"
 #include "globe/experiments.h"
+#include "globe/point_clusters.h"
 #include "sky/almanac.h"
 
 namespace terrella {
@@ -126,6 +127,13 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
           "Draw --objects in the style of this JSON file: colours, widths, sizes, texts and heights by the fields "
           "of features")
       ->type_name("FILE.json")
+      ->needs(objects);
+  command
+      .add_option(
+          "--cluster", options.cluster_px,
+          "Draw points of --objects within this radius of one another, in pixels, as one disc with their number")
+      ->check(CLI::Range(PointClusters::kLeastRadius_px, PointClusters::kMostRadius_px))
+      ->type_name("PX")
       ->needs(objects);
 }
 

@@ -31,7 +31,8 @@ struct ObjectsOption {
   std::string style_over{};               ///< JSON of the style that the window gave them; empty: none
   std::optional<Geodetic> model_place{};  ///< set for a model: where it stands
   bool shown = true;
-  double opacity = 1.0;  ///< [0, 1]
+  double opacity = 1.0;     ///< [0, 1]
+  double cluster_px = 0.0;  ///< radius of clusters of points (globe/point_clusters.h); 0: none
 };
 
 /// Options shared by `view` and `render`; the parse has checked every value.
@@ -68,6 +69,7 @@ struct SceneOptions {
   bool keep_features = false;     ///< keep the features of the objects, for other styles
   std::string objects;            ///< GeoJSON, or a vector file of GDAL's; empty: none
   std::string object_style;       ///< JSON file of a style for the objects; empty: their own properties
+  double cluster_px = 0.0;        ///< radius of clusters of the points of `objects`; 0: none
   std::optional<bool> map;        ///< --map; absent: the command's default
   std::optional<bool> graticule;  ///< absent: the command's default
   std::string places;             ///< GeoJSON file of names, for map and search; empty: the Earth's cities

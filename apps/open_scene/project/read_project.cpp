@@ -15,6 +15,7 @@
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/project/project_words.h"
+#include "globe/point_clusters.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 #include "streaming/objects/feature_style.h"
@@ -159,7 +160,7 @@ void read_heights(const Reader& reader, const Json& layer, const std::string& wh
 
 ObjectsOption read_object_layer(const Reader& reader, const Json& layer, const std::string& where) {
   JsonFields fields(layer, where);
-  constexpr std::array kKnown = {kKind, kSource, kShown, kOpacity, kStyle, kStyleOver, kPlace};
+  constexpr std::array kKnown = {kKind, kSource, kShown, kOpacity, kStyle, kStyleOver, kPlace, kCluster};
   fields.refuse_others(kKnown);
   ObjectsOption objects{.file = source_of(reader, fields, true)};
   if (fields.has(kStyle)) objects.style = found_from(fields.text(kStyle), reader.folder);
@@ -169,6 +170,12 @@ ObjectsOption read_object_layer(const Reader& reader, const Json& layer, const s
     if (!sane) throw ProjectFault(sane.error().message);
   }
   read_look(layer, fields, objects.shown, objects.opacity);
+  if (fields.has(kCluster)) {
+    objects.cluster_px = fields.number(kCluster);
+    const bool sane =
+        PointClusters::kLeastRadius_px <= objects.cluster_px && objects.cluster_px <= PointClusters::kMostRadius_px;
+    if (!sane) throw ProjectFault(where + ": the field \"cluster\" takes 10 to 400 pixels");
+  }
   if (const auto at = layer.find(kPlace); at != layer.end()) {
     const bool sane = at->is_array() && at->size() == 3 &&
                       std::ranges::all_of(*at, [](const Json& number) { return number.is_number(); });

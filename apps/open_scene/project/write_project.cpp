@@ -174,6 +174,7 @@ OrderedJson objects_json(const ObjectsOption& objects, const fs::path& folder) {
   OrderedJson json = {{kKind, objects.model_place ? kModel : kObjects}, {kSource, seen_from(objects.file, folder)}};
   if (!objects.style.empty()) json[kStyle] = seen_from(objects.style, folder);
   if (!objects.style_over.empty()) json[kStyleOver] = OrderedJson::parse(objects.style_over);
+  put(json, kCluster, objects.cluster_px, 0.0);
   if (objects.model_place) {
     const Geodetic& at = *objects.model_place;
     json[kPlace] = {at.lat.deg(), at.lon.deg(), at.height_m};
