@@ -142,6 +142,7 @@ LayerRow objects_row(const OpenedScene& scene, SceneObjects& layer) {
   row.look.opacity = layer.option.opacity;
   row.style = style_of_layer(std::move(layer.features), layer.style);
   row.features = std::make_shared<const std::vector<ListedFeature>>(std::move(layer.list));
+  row.take_points(std::move(layer.points));
   if (const auto attribution = scene.globe->attribution(layer.id)) row.attribution = *attribution;
   return row;
 }

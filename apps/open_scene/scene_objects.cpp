@@ -78,22 +78,14 @@ Result<SceneObjects> add_objects(Globe& globe, const ObjectsOption& option, bool
   const bool needs_features = keep_features || !option.style_over.empty();
   LayerFeatures features = needs_features ? layer_features(file->scene, layer.style) : LayerFeatures{};
   if (keep_features) layer.list = listed_features(file->scene);
-  std::vector<ClusterPoint> points = cluster_points(file->scene);
+  if (keep_features || option.cluster_px > 0.0) layer.points = cluster_points(file->scene);
   const auto added = globe.add_objects(std::move(file->scene), option.shown);
   if (!added) return added.error();
   layer.id = *added;
-  if (option.cluster_px > 0.0) {
-    Result<PointClusters> clusters = PointClusters::make(layer.id, points, option.cluster_px);
-    if (!clusters) return clusters.error();
-    layer.clusters = std::make_shared<PointClusters>(*std::move(clusters));
-  }
   if (const Status done = restyle(globe, layer, features); !done) return done.error();
   if (const Status faded = globe.fade_objects(layer.id, option.opacity); !faded) return faded.error();
   if (const Status told = globe.set_attribution(layer.id, file->attribution); !told) return told.error();
-  if (keep_features) {
-    layer.features = std::move(features);
-    layer.points = std::move(points);
-  }
+  if (keep_features) layer.features = std::move(features);
   return layer;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,14 +24,13 @@ void add_label_font(GlobeOptions& options);
 struct SceneObjects {
   LayerId id = LayerId::none;
   ObjectsOption option;
-  std::optional<GeoRect> bounds{};            ///< none without objects
-  bool faultless = true;                      ///< false if objects were faulty
-  FeatureStyle style{};                       ///< the style in which they are drawn
-  LayerFeatures features{};                   ///< empty unless they are kept
-  std::vector<ListedFeature> list{};          ///< empty unless features are kept
-  bool has_pictures = false;                  ///< the file is a KML file whose pictures are imagery
-  std::vector<ClusterPoint> points{};         ///< points that may be in clusters; empty unless features are kept
-  std::shared_ptr<PointClusters> clusters{};  ///< null: there are none; to be updated before each frame
+  std::optional<GeoRect> bounds{};     ///< none without objects
+  bool faultless = true;               ///< false if objects were faulty
+  FeatureStyle style{};                ///< the style in which they are drawn
+  LayerFeatures features{};            ///< empty unless they are kept
+  std::vector<ListedFeature> list{};   ///< empty unless features are kept
+  bool has_pictures = false;           ///< the file is a KML file whose pictures are imagery
+  std::vector<ClusterPoint> points{};  ///< may be in clusters; empty unless features are kept, or clusters asked for
 };
 
 /// Reads a file of objects in its style, or a model and puts it in its place. The error names the file. thread: any

@@ -144,7 +144,7 @@ struct ScenePicture::Parts {
   bool checked_fills = false;
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
-  std::map<LayerId, PointClusters> clusters{};   ///< of layers that were added later
+  std::map<LayerId, PointClusters> clusters{};
 
   Result<GlobeOptions> prepare(const Body& body);
   Status open();
@@ -199,7 +199,12 @@ ScenePicture::~ScenePicture() = default;
 Result<std::unique_ptr<ScenePicture>> ScenePicture::open(const RenderCommand& command) {
   auto parts = std::make_unique<Parts>(Parts{.command = command});
   if (const Status opened = parts->open(); !opened) return opened.error();
-  return std::unique_ptr<ScenePicture>(new ScenePicture(std::move(parts)));
+  std::unique_ptr<ScenePicture> picture(new ScenePicture(std::move(parts)));
+  for (const SceneObjects& layer : picture->parts_->scene.objects) {
+    const Status clustered = picture->set_clusters(layer.id, layer.points, layer.option.cluster_px);
+    if (!clustered) return clustered.error();
+  }
+  return picture;
 }
 
 Globe& ScenePicture::globe() { return *parts_->scene.globe; }
@@ -234,10 +239,6 @@ const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
 }
 
 Status ScenePicture::Parts::update_clusters() {
-  for (const SceneObjects& objects : scene.objects) {
-    if (!objects.clusters) continue;
-    if (Status done = objects.clusters->update(*scene.globe, command.scene.size); !done) return done;
-  }
   const std::vector<LayerId> layers = scene.globe->objects();
   std::erase_if(clusters, [&](const auto& one) { return std::ranges::find(layers, one.first) == layers.end(); });
   for (auto& [layer, points] : clusters) {

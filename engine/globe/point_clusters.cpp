@@ -75,13 +75,13 @@ std::vector<ClusterPoint> cluster_points(const ObjectScene& scene) {
 struct PointClusters::State {
   LayerId layer;
   double radius_px;
-  std::vector<ObjectId> ids;  ///< of the tree's points
+  std::vector<ObjectId> ids;  ///< features of the tree's points
   PointTree tree;
   std::vector<char> shown;                  ///< for each point
   std::vector<std::uint32_t> singles = {};  ///< points that are shown, in ascending order, once an update was made
   std::set<std::uint32_t> discs = {};       ///< nodes that are drawn
-  std::optional<Camera> camera = {};        ///< of the last update
-  Viewport picture = {};                    ///< of the last update
+  std::optional<Camera> camera = {};        ///< camera of the last update
+  Viewport picture = {};                    ///< picture of the last update
 
   void show(std::uint32_t point, bool on, ObjectEdits& edits) {
     if (std::exchange(shown[point], on ? 1 : 0) == (on ? 1 : 0)) return;

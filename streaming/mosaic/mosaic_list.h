@@ -29,7 +29,7 @@ struct MosaicList {
   std::string name;
   std::string attribution;
   std::vector<MosaicEntry> entries;
-  std::vector<std::string> remarks = {};  ///< what the description says and the mosaic does not show
+  std::vector<std::string> remarks = {};  ///< statements of the description that the mosaic does not show
 };
 
 /// True for a folder with rasters that is no tile set, for a list of files (*.txt, *.lst), for a KML or KMZ file by its

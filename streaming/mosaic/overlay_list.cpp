@@ -90,7 +90,7 @@ Result<MosaicList> read_overlay_list(const fs::path& path, const fs::path& unpac
   }
   if (list.entries.empty() && !list.remarks.empty()) return Error{list.remarks.front()};
   if (list.entries.empty()) {
-    return Error{path.string() + ": it has no picture (GroundOverlay); its places, lines and areas are ‹objects›"};
+    return Error{path.string() + ": it has no picture (GroundOverlay); open its places, lines and areas as objects"};
   }
   return list;
 }

@@ -65,6 +65,22 @@ class ObjectStyle(ProgramTest):
                               *VIEW, says=says)
             self.assertFalse((self.folder / "no.png").exists())
 
+    def test_points_close_to_one_another_are_a_cluster(self):
+        """A disc of the clusters' colour, wider than a marker; apart from nearby; a radius out of range is refused."""
+        points = [{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0.02 * k, 0.0]}} for k in range(9)]
+        self.write("p.geojson", json.dumps({"type": "FeatureCollection", "features": points}).encode())
+        beside = (MIDDLE[0] - 9, MIDDLE[1])  # a disc of nine has a diameter of 29 px, a marker of 10
+        seen = {}
+        for height in (4000000, 3000):
+            self.assert_done("render", "--objects", "p.geojson", "--cluster", "40", "-o", "out.png", "--camera", f"0,0,{height}", *VIEW[2:])
+            seen[height] = png.pixel(png.read(self.folder / "out.png"), *beside)
+        for channel, expected in zip(seen[4000000], (38, 92, 150)):
+            self.assertAlmostEqual(channel, expected, delta=25, msg="the disc is 235/255 opaque")
+        self.assertNotEqual(seen[3000], seen[4000000])
+        for radius in ("9", "401", "nan"):
+            self.assert_fails(WRONG_USAGE, "render", "--objects", "p.geojson", "--cluster", radius, "-o", "no.png", *VIEW,
+                              says=["--cluster", "10"])
+
     def test_it_needs_a_file_and_objects(self):
         self.assert_fails(FAILED, "render", "--objects", "f.geojson", "--object-style", "nowhere.json", "-o", "no.png",
                           *VIEW, says=["nowhere.json"])

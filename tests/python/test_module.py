@@ -205,6 +205,18 @@ class Globes(ModuleTest):
             with self.assertRaises(terrella.Error):
                 globe.move(layer, 2, 10, 20)
 
+    def test_points_close_to_one_another_are_one_object(self):
+        marks = {"type": "FeatureCollection", "features": [mark(0.01 * k, 0) for k in range(5)]}
+        with terrella.Globe(NATURAL_EARTH, camera=(0, 0, 8e6), size=SIZE, unlit=True) as globe:
+            layer = globe.add_objects(marks, cluster=40)
+            globe.render()
+            self.assertEqual(globe.pick(80, 60)["properties"]["point_count"], 5)
+            globe.set_objects(layer, {"type": "FeatureCollection", "features": marks["features"][:3]})
+            globe.render()
+            self.assertEqual(globe.pick(80, 60)["properties"]["point_count"], 3)
+            with self.assertRaisesRegex(terrella.Error, "radius"):
+                globe.add_objects(marks, cluster=5)
+
     def test_another_style_is_what_reading_in_it_draws(self):
         def square(west, people):
             ring = [[west, -9], [west + 9, -9], [west + 9, 9], [west, 9], [west, -9]]

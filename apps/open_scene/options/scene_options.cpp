@@ -132,7 +132,7 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
       .add_option(
           "--cluster", options.cluster_px,
           "Draw points of --objects within this radius of one another, in pixels, as one disc with their number")
-      ->check(CLI::Range(PointClusters::kLeastRadius_px, PointClusters::kMostRadius_px))
+      ->check(number_in(PointClusters::kLeastRadius_px, PointClusters::kMostRadius_px))
       ->type_name("PX")
       ->needs(objects);
 }

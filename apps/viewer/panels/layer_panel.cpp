@@ -109,6 +109,12 @@ void draw_problem(const LayerRow& row) {
   ImGui::PopStyleColor();
 }
 
+void draw_clusters(double& radius_px) {
+  bool on = radius_px > 0.0;
+  if (ImGui::Checkbox("Clusters", &on)) radius_px = on ? kClusterRadius_px : 0.0;
+  tip("Draws points close to one another as one disc with their number.");
+}
+
 LayerAsk draw_row(LayerRow& row) {
   ImGui::Checkbox("##shown", &row.look.shown);
   tip("Shows or hides the layer.");
@@ -125,6 +131,7 @@ LayerAsk draw_row(LayerRow& row) {
   draw_attribution(row);
   const LayerAsk ask = draw_buttons(row);
   if (row.kind == LayerKind::imagery) draw_comparison(row);
+  if (row.clusters) draw_clusters(row.objects.cluster_px);
   draw_facts(row);
   ImGui::TreePop();
   return ask;

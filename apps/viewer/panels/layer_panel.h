@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
@@ -12,6 +13,7 @@
 #include "apps/open_scene/listed_features.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/scene_numbers.h"
+#include "apps/viewer/clusters/layer_clusters.h"
 #include "apps/viewer/styles/layer_style.h"
 #include "geo/coordinates.h"
 #include "geo/objects.h"
@@ -41,8 +43,13 @@ struct LayerRow {
   bool fills_checked = false;                                       ///< objects: areas without a fill are reported
   std::shared_ptr<LayerStyle> style = {};                           ///< set for objects with features
   std::shared_ptr<const std::vector<ListedFeature>> features = {};  ///< set for objects; may be empty
+  std::shared_ptr<LayerClusters> clusters = {};                     ///< set for objects with points
   bool facts_drawn = false;                                         ///< the panel was drawn since they came
 
+  /// Takes the points of objects, if there are any, for clusters.
+  void take_points(std::vector<ClusterPoint> points) {
+    if (!points.empty()) clusters = std::make_shared<LayerClusters>(std::move(points));
+  }
   [[nodiscard]] bool has_facts() const {
     return facts.valid() && facts.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }

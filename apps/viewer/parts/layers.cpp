@@ -77,6 +77,7 @@ void Layers::draw_open(float foot) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     take_look(rows_[i], rows[i].look);
     take_style(rows_[i]);
+    rows_[i].objects.cluster_px = rows[i].objects.cluster_px;
     rows_[i].numbers = std::move(rows[i].numbers);
     rows_[i].facts = std::move(rows[i].facts);
     rows_[i].facts_drawn = rows_[i].has_facts();
@@ -315,6 +316,14 @@ void Layers::check_fills() {
   }
 }
 
+void Layers::follow_clusters(Viewport picture) {
+  for (LayerRow& row : rows_) {
+    if (!row.clusters) continue;
+    const Status followed = row.clusters->follow(context_.globe, row.id, row.objects.cluster_px, picture);
+    if (!followed) say(followed.error().message);
+  }
+}
+
 bool Layers::cancel() {
   if (!files_.busy()) return false;
   files_.leave_off();
@@ -387,6 +396,7 @@ Status Layers::add_objects(ObjectFile file, LayerRow& row) {
   row.attribution = file.attribution;
   row.style = style_of_layer(layer_features(file.scene));
   row.features = std::make_shared<const std::vector<ListedFeature>>(listed_features(file.scene));
+  row.take_points(cluster_points(file.scene));
   const auto id = context_.globe.add_objects(std::move(file.scene));
   if (!id) return id.error();
   row.id = *id;

@@ -25,7 +25,7 @@ struct OpenedFile {
   std::optional<Geodetic> model_place = {};            ///< set for a model: where it stands
   std::vector<std::shared_ptr<GrowingCut>> cuts = {};  ///< cuts of a picture that run in the background
   FactsReader read_facts = {};                         ///< reads the facts of a raster
-  std::optional<ObjectFile> features = {};             ///< of a KML file whose pictures are `what`
+  std::optional<ObjectFile> features = {};             ///< features of a KML file whose pictures are `what`
 };
 
 /// Opens a file, a folder or an address: a picture (shown at once, or while it is cut into the cache), a tile set of

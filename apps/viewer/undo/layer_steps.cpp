@@ -7,11 +7,13 @@ namespace terrella {
 
 bool LayerState::operator==(const LayerState& other) const {
   const auto number = [](const LayerState& state) { return state.style ? state.style->number : 0; };
-  return key == other.key && look == other.look && colormap == other.colormap && number(*this) == number(other);
+  return key == other.key && look == other.look && colormap == other.colormap && cluster_px == other.cluster_px &&
+         number(*this) == number(other);
 }
 
 LayerState state_of(const LayerRow& row) {
   LayerState state{.key = row.key, .name = row.name, .look = row.look};
+  state.cluster_px = row.objects.cluster_px;
   if (row.numbers) state.colormap = row.numbers->colormap;
   if (row.style) state.style = row.style->drawn();
   return state;

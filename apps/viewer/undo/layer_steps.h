@@ -21,6 +21,7 @@ struct LayerState {
   ImageLook look = {};
   std::string colormap = {};                    ///< for numbers
   std::optional<LayerStyle::Drawn> style = {};  ///< for objects with a style
+  double cluster_px = 0.0;                      ///< for objects
   [[nodiscard]] bool operator==(const LayerState& other) const;
 };
 

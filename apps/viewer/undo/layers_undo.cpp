@@ -58,6 +58,7 @@ RemoveStep Layers::removal_of(const LayerRow& row) const {
   if (row.style) step.style = row.style->drawn();
   step.row.style.reset();
   step.row.features.reset();
+  step.row.clusters.reset();
   const LayerKind kind = step.row.kind;
   const Globe& globe = context_.globe;
   const auto ids = kind == LayerKind::objects ? globe.objects() : globe.imagery();
@@ -99,6 +100,7 @@ void Layers::show_states(const std::vector<LayerState>& states) {
     const auto row = row_of(state.key);
     if (row == rows_.end()) continue;
     take_look(*row, state.look);
+    row->objects.cluster_px = state.cluster_px;
     if (row->numbers) row->numbers->colormap = state.colormap;
     if (!row->style || !state.style || row->style->drawn().number == state.style->number) continue;
     const Status restored = row->style->restore(context_.globe, row->id, *state.style);
@@ -144,6 +146,7 @@ Status Layers::read_again(LayerRow& row, const std::optional<LayerStyle::Drawn>&
   row.id = added->id;
   row.style = style_of_layer(std::move(added->features), added->style);
   row.features = std::make_shared<const std::vector<ListedFeature>>(std::move(added->list));
+  row.take_points(std::move(added->points));
   if (row.style && style) {
     if (Status restored = row.style->restore(context_.globe, row.id, *style); !restored) return restored;
   }

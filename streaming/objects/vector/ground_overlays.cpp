@@ -19,7 +19,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 360.0;
 constexpr std::size_t kMostDocuments = 20'000;
-constexpr int kMostFolders = 64;  // of elements within one another that have a visibility
+constexpr int kMostFolders = 64;  // levels of elements whose visibility counts
 
 pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name) {
   for (const pugi::xml_node& child : parent.children()) {

@@ -25,7 +25,7 @@ struct GroundOverlay {
 
 struct GroundOverlays {
   std::vector<GroundOverlay> pictures;  ///< in the order of the documents
-  std::vector<std::string> complaints;  ///< what is left out, and what is drawn otherwise than the file says
+  std::vector<std::string> complaints;  ///< elements that are left out, or drawn otherwise than the file says
   bool all_linked = true;  ///< each link leads to a document that was read and has no features but pictures
 };
 

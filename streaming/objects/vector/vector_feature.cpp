@@ -133,7 +133,7 @@ class StyleTool {
 
   /// Adds the picture of a KML icon that is no address, its colour, its size and its direction.
   void add_icon(double scale, json& properties) const {
-    constexpr double kIcon_px = 32.0;  // of scale 1, as in Google Earth
+    constexpr double kIcon_px = 32.0;  // longer side at scale 1, as in Google Earth
     int is_absent = 1;
     const char* picture = gdal().OGR_ST_GetParamStr(tool_, OGRSTSymbolId, &is_absent);
     const std::string name = picture == nullptr || is_absent != 0 ? "" : picture;
