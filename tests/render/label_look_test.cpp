@@ -181,7 +181,8 @@ TEST_F(LabelLookTest, TextsTurnAtTheLimbWhereverTheyAreAnchored) {
 // A picture full of large letters needs more room than the first atlas has, in one frame.
 TEST_F(LabelLookTest, NoLetterLacksInAPictureOfManyLargeLetters) {
   constexpr int kRows = 12, kOfRow = 24;
-  use(DepthMode::reversed, {1800, 1000});
+  constexpr double kRow_deg = 0.52;  // 95 px; a row with its halo has 90
+  use(DepthMode::reversed, {1800, 1200});
   std::vector<LabelObject> labels;
   char32_t letter = 0x391;  // Greek, then Cyrillic
   for (int row = 0; row < kRows; ++row) {
@@ -192,9 +193,9 @@ TEST_F(LabelLookTest, NoLetterLacksInAPictureOfManyLargeLetters) {
       text += static_cast<char>(0x80 + letter % 64);
     }
     labels.push_back({.text = text,
-                      .place = at(0.5 * (0.5 * kRows - row - 0.5), 0.0),
+                      .place = at(kRow_deg * (0.5 * kRows - row - 0.5), 0.0),
                       .color = kLemon,
-                      .look = {.text_px = 56.0F, .anchor = TextAnchor::center}});
+                      .look = {.text_px = 64.0F, .halo_px = 7.0F, .anchor = TextAnchor::center}});
   }
   const View view = this->view(over(0.0, 0.0, 1.0e6));
   const int together = letters(draw({.labels = labels}, view)).pixels;
