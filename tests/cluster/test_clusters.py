@@ -18,7 +18,7 @@ class Clusters(WindowTest):
     def setUp(self):
         super().setUp()
         points = [{"type": "Feature", "properties": {"name": f"P{i}"}, "geometry": {"type": "Point", "coordinates":
-                  [-40 + 0.05 * (i % 5), 20 + 0.05 * (i // 5)]}} for i in range(25)]
+                  [-40 + 1.0 * (i % 5), 20 + 1.0 * (i // 5)]}} for i in range(25)]
         self.points = self.folder / "points.geojson"
         self.points.write_text(json.dumps({"type": "FeatureCollection", "features": points}), encoding="ascii")
         self.session = self.kept / "terrella" / "session.terrella"
@@ -67,8 +67,8 @@ class Clusters(WindowTest):
         x, y = (round(sum(axis) / len(pixels)) for axis in zip(*pixels))
         viewer.wheel(x, y, 30)
         viewer.settled()
-        self.shows(viewer, "apart", False)
         self.screenshot(viewer, "apart")
+        self.shows(viewer, "apart", False)
         self.assertEqual(viewer.quit(), 0)
 
 
