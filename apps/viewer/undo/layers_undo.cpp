@@ -122,10 +122,10 @@ Status Layers::bring_back(RemoveStep& step) {
     const auto added = globe.add_imagery(row.tiles, row.look);
     if (!added) return added.error();
     row.id = *added;
-  } else if (const Status read = read_again(row, step.style); !read) {
+  } else if (Status read = read_again(row, step.style); !read) {
     return read;
   }
-  if (const Status moved = globe.move(row.id, step.place); !moved) return moved;
+  if (Status moved = globe.move(row.id, step.place); !moved) return moved;
   insert(std::move(row));
   sort_rows();
   return Done{};
