@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "geo/ellipsoid.h"
+
 namespace terrella {
 namespace {
 
@@ -17,10 +19,7 @@ struct Part {
   double size_deg = 0.0;
 };
 
-glm::dvec3 direction(const Geodetic& place) {
-  const double level = std::cos(place.lat.rad());
-  return {level * std::cos(place.lon.rad()), level * std::sin(place.lon.rad()), std::sin(place.lat.rad())};
-}
+glm::dvec3 direction(const Geodetic& place) { return Ellipsoid::normal(place.lat, place.lon).xyz; }
 
 double angle_between(const Geodetic& a, const Geodetic& b) {
   return std::acos(std::clamp(glm::dot(direction(a), direction(b)), -1.0, 1.0));
@@ -32,9 +31,9 @@ Geodetic place_between(const Geodetic& a, const Geodetic& b, double share) {
   if (sine < 1e-9) return a;
   const glm::dvec3 at =
       (std::sin((1.0 - share) * angle) * direction(a) + std::sin(share * angle) * direction(b)) / sine;
-  return {.lat = Angle::radians(std::asin(std::clamp(at.z, -1.0, 1.0))),
-          .lon = Angle::radians(std::atan2(at.y, at.x)),
-          .height_m = (1.0 - share) * a.height_m + share * b.height_m};
+  Geodetic place = Ellipsoid::lat_lon({at});
+  place.height_m = (1.0 - share) * a.height_m + share * b.height_m;
+  return place;
 }
 
 double length(const std::vector<Geodetic>& places) {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "base/range_check.h"
@@ -50,6 +51,20 @@ void add_disc(ObjectScene& scene, ObjectId id, const Geodetic& place, std::uint3
                           .look = {.text_px = 13.0F, .halo_px = 0.0F, .anchor = TextAnchor::center}});
 }
 
+/// The numbers of `all` that `some` lacks; each in ascending order.
+std::vector<std::uint32_t> missing_in(const std::vector<std::uint32_t>& some, const std::vector<std::uint32_t>& all) {
+  std::vector<std::uint32_t> missing;
+  std::ranges::set_difference(all, some, std::back_inserter(missing));
+  return missing;
+}
+
+/// 0, 1, …
+std::vector<std::uint32_t> numbers_to(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<ClusterPoint> cluster_points(const ObjectScene& scene) {
@@ -77,36 +92,26 @@ struct PointClusters::State {
   double radius_px;
   std::vector<ObjectId> ids;  ///< features of the tree's points
   PointTree tree;
-  std::vector<char> shown;                  ///< for each point
-  std::vector<std::uint32_t> singles = {};  ///< points that are shown, in ascending order, once an update was made
-  std::set<std::uint32_t> discs = {};       ///< nodes that are drawn
+  std::vector<std::uint32_t> singles = {};  ///< points that are shown, in ascending order
+  std::vector<std::uint32_t> discs = {};    ///< nodes that are drawn, in ascending order
   std::optional<Camera> camera = {};        ///< camera of the last update
   Viewport picture = {};                    ///< picture of the last update
 
-  void show(std::uint32_t point, bool on, ObjectEdits& edits) {
-    if (std::exchange(shown[point], on ? 1 : 0) == (on ? 1 : 0)) return;
-    edits.changes.push_back({.id = ids[point], .visible = on});
-  }
-
-  void show_singles(std::vector<std::uint32_t> now, ObjectEdits& edits) {
-    std::ranges::sort(now);
-    for (const std::uint32_t point : singles) {
-      if (!std::ranges::binary_search(now, point)) show(point, false, edits);
+  /// Shows these nodes, in ascending order, instead of the present ones.
+  void show(std::vector<std::uint32_t> points, std::vector<std::uint32_t> groups, ObjectEdits& edits) {
+    for (const std::uint32_t point : missing_in(points, singles)) {
+      edits.changes.push_back({.id = ids[point], .visible = false});
     }
-    for (const std::uint32_t point : now) show(point, true, edits);
-    singles = std::move(now);
-  }
-
-  void show_discs(const std::set<std::uint32_t>& now, ObjectEdits& edits) {
-    for (const std::uint32_t node : discs) {
-      if (!now.contains(node)) edits.remove.push_back(id_of(node));
+    for (const std::uint32_t point : missing_in(singles, points)) {
+      edits.changes.push_back({.id = ids[point], .visible = true});
     }
-    for (const std::uint32_t node : now) {
-      if (discs.contains(node)) continue;
+    for (const std::uint32_t node : missing_in(groups, discs)) edits.remove.push_back(id_of(node));
+    for (const std::uint32_t node : missing_in(discs, groups)) {
       const PointTree::Node& group = tree.nodes()[node];
       add_disc(edits.add, id_of(node), Ellipsoid::lat_lon(EcefDir{group.normal}), group.count);
     }
-    discs = now;
+    singles = std::move(points);
+    discs = std::move(groups);
   }
 };
 
@@ -127,14 +132,11 @@ Result<PointClusters> PointClusters::make(LayerId layer, std::span<const Cluster
     ids.push_back(point.id);
     places.push_back(point.place);
   }
-  std::vector<std::uint32_t> all(ids.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  std::vector<char> shown(ids.size(), 1);
+  std::vector<std::uint32_t> all = numbers_to(ids.size());
   return PointClusters(std::make_unique<State>(State{.layer = layer,
                                                      .radius_px = radius_px,
                                                      .ids = std::move(ids),
                                                      .tree = PointTree(places),
-                                                     .shown = std::move(shown),
                                                      .singles = std::move(all)}));
 }
 
@@ -143,22 +145,18 @@ Status PointClusters::update(Globe& globe, Viewport picture) {
   state_->camera = globe.camera();
   state_->picture = picture;
   const View view = globe.view(picture);
-  std::vector<std::uint32_t> singles;
-  std::set<std::uint32_t> discs;
-  for (const std::uint32_t node : state_->tree.cut(view, globe.options().body.ellipsoid, state_->radius_px)) {
-    node < state_->tree.points() ? singles.push_back(node) : static_cast<void>(discs.insert(node));
-  }
+  std::vector<std::uint32_t> nodes = state_->tree.cut(view, globe.options().body.ellipsoid, state_->radius_px);
+  std::ranges::sort(nodes);  // points come before groups
+  const auto first = std::ranges::lower_bound(nodes, state_->tree.points());
   ObjectEdits edits;
-  state_->show_singles(std::move(singles), edits);
-  state_->show_discs(discs, edits);
+  state_->show({nodes.begin(), first}, {first, nodes.end()}, edits);
   const bool is_same = edits.remove.empty() && edits.add.empty() && edits.changes.empty();
   return is_same ? Status(Done{}) : globe.edit_objects(state_->layer, std::move(edits));
 }
 
 Status PointClusters::end(Globe& globe) {
   ObjectEdits edits;
-  state_->show_discs({}, edits);
-  for (std::uint32_t point = 0; point < state_->ids.size(); ++point) state_->show(point, true, edits);
+  state_->show(numbers_to(state_->ids.size()), {}, edits);
   state_->camera.reset();
   return globe.edit_objects(state_->layer, std::move(edits));
 }

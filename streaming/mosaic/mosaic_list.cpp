@@ -12,6 +12,7 @@
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 #include "streaming/mosaic/overlay_list.h"
+#include "streaming/objects/vector/vector_file.h"
 
 namespace terrella {
 namespace {
@@ -176,9 +177,10 @@ bool is_mosaic(const fs::path& path) {
 }
 
 Result<MosaicList> read_mosaic_list(const fs::path& path, const fs::path& unpacked) {
-  if (is_kml_name(path)) return read_overlay_list(path, unpacked);
   std::error_code failed;
-  if (!fs::is_directory(path, failed)) return is_list_name(path) ? read_lines(path) : read_description(path);
+  const bool is_folder = fs::is_directory(path, failed);
+  if (!is_folder && is_kml_name(path)) return read_overlay_list(path, unpacked);
+  if (!is_folder) return is_list_name(path) ? read_lines(path) : read_description(path);
   const fs::path whole = fs::absolute(path, failed).lexically_normal();
   const fs::path named = whole.has_filename() ? whole : whole.parent_path();
   MosaicList list{.name = named.filename().string(), .attribution = {}, .entries = {}};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <map>
 #include <utility>
@@ -62,12 +61,6 @@ class PictureFiles {
 };
 
 }  // namespace
-
-bool is_kml_name(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".kml" || ending == ".kmz";
-}
 
 Result<MosaicList> read_overlay_list(const fs::path& path, const fs::path& unpacked) {
   const auto file = KmlFile::open(path);

@@ -7,9 +7,6 @@
 
 namespace terrella {
 
-/// True for the name of a KML or KMZ file. thread: any
-[[nodiscard]] bool is_kml_name(const std::filesystem::path& path);
-
 /// Reads the ground overlays of a KML or KMZ file as a mosaic: those that are shown, or all if none is. The pictures of
 /// a KMZ file are unpacked into `unpacked`, unless they lie there since its last change. Fails if there is none. The
 /// error names the file. Blocks. thread: any

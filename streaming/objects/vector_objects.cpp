@@ -27,8 +27,7 @@ struct DestroyFeature {
 /// Reads the layers of a file, one feature at a time.
 class LayerReader {
  public:
-  LayerReader(const VectorFile& file, FeatureTaker& taker)
-      : file_(file), is_kml_(file.driver == "LIBKML"), taker_(taker) {}
+  LayerReader(const VectorFile& file, FeatureTaker& taker) : file_(file), is_kml_(file.is_kml), taker_(taker) {}
 
   /// The number of GroundOverlay elements.
   [[nodiscard]] std::size_t overlays() const { return overlays_; }
@@ -162,7 +161,7 @@ Result<ObjectFile> read_vector_objects(const std::filesystem::path& path, Object
   ObjectFile file;
   FeatureTaker taker(path.string(), path.has_parent_path() ? path.parent_path() : ".", first, file);
   taker.set_style(style);
-  if (opened->driver == "LIBKML") taker.set_icon_reader(icons_of(path));
+  if (opened->is_kml) taker.set_icon_reader(icons_of(path));
   LayerReader reader(*opened, taker);
   reader.read_all();
   file.ground_overlays = reader.overlays();

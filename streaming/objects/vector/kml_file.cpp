@@ -67,7 +67,7 @@ Result<KmlFile> KmlFile::open(const fs::path& path) {
   if (const auto loaded = load_gdal(); !loaded) return fault(loaded.error().message);
   const GdalMessages messages;
   if (const Status fits = check_vector_length(whole); !fits) return fault(fits.error().message);
-  const bool is_zip = whole.extension() == ".kmz" || whole.extension() == ".KMZ";
+  const bool is_zip = is_zip_name(whole);
   KmlFile file(whole, is_zip ? "/vsizip/" + whole.string() : "");
   if (is_zip) file.names_ = names_in_zip(file.zip_);
   file.document_ = is_zip ? document_of(file.names_) : whole.filename().string();

@@ -72,7 +72,7 @@ Result<VectorFacts> describe_vector(const std::filesystem::path& path) {
     if (OGRLayerH layer = gdal().GDALDatasetGetLayer(file->dataset.get(), i)) facts.layers.push_back(facts_of(layer));
   }
   if (!messages.error().empty()) return Error{fmt::format("{}: {}", path.string(), messages.error())};
-  if (file->driver == "LIBKML") facts.pictures = pictures_of(path);
+  if (file->is_kml) facts.pictures = pictures_of(path);
   if (facts.layers.empty()) return Error{path.string() + ": it holds no layers of features"};
   return facts;
 }

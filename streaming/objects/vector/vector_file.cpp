@@ -46,11 +46,6 @@ bool holds_shapefile(const fs::path& folder) {
   return false;
 }
 
-bool is_zip_name(const fs::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".zip" || ending == ".shz" || ending == ".kmz";
-}
-
 /// Sum of the lengths that a ZIP file states of its files. GDAL reads no more of each.
 Result<std::uint64_t> unpacked_bytes(const std::string& zip) {
   constexpr int kMostFiles = 10'000;
@@ -115,6 +110,16 @@ bool links_to_pictures(const fs::path& path) {
 
 GdalSettings::Settings vector_settings() { return {{"LIBKML_EXTERNAL_STYLE", "NO"}, {"LIBKML_RESOLVE_STYLE", "YES"}}; }
 
+bool is_kml_name(const fs::path& path) {
+  const std::string ending = lower_ending(path);
+  return ending == ".kml" || ending == ".kmz";
+}
+
+bool is_zip_name(const fs::path& path) {
+  const std::string ending = lower_ending(path);
+  return ending == ".zip" || ending == ".shz" || ending == ".kmz";
+}
+
 const char* vector_driver_of(const fs::path& path) {
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) return holds_shapefile(path) ? kShapefile : nullptr;
@@ -157,7 +162,7 @@ Result<VectorFile> open_vector_file(const fs::path& path) {
   if (is_kml) {
     if (const Status good = check_kml(is_zip ? zip : whole.string(), is_zip); !good) return fault(good.error().message);
   }
-  VectorFile file{.dataset = {}, .driver = driver};
+  VectorFile file{.dataset = {}, .driver = driver, .is_kml = is_kml};
   file.dataset.reset(open_by_driver(is_zip && !is_kml ? zip : whole.string(), driver));
   if (!file.dataset) {
     const bool is_unknown = messages.error().empty() || messages.error().find("not recognized as") != std::string::npos;

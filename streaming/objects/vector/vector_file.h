@@ -17,9 +17,14 @@ struct CloseVectorFile {
 struct VectorFile {
   std::unique_ptr<void, CloseVectorFile> dataset;
   std::string driver;      ///< GDAL's name of the format
+  bool is_kml = false;     ///< KML or KMZ
   bool has_links = false;  ///< KML with links to features, or to a network, which are not followed
 };
 
+/// True for the name of a KML or KMZ file. thread: any
+[[nodiscard]] bool is_kml_name(const std::filesystem::path& path);
+/// True for the name of a file whose format is a ZIP file: KMZ, and shapefiles in one. thread: any
+[[nodiscard]] bool is_zip_name(const std::filesystem::path& path);
 /// Settings that must hold while a vector file is opened and read: shared styles of KML count, styles elsewhere do not.
 [[nodiscard]] GdalSettings::Settings vector_settings();
 /// The driver that may open a file of this name; null if none may. thread: any
