@@ -21,6 +21,7 @@ struct Action {
     alted = 8,      ///< only with Alt
     ctrl = 16,      ///< `characters` with Ctrl, also while a panel has the keyboard
     unlisted = 32,  ///< not in the menu
+    passes = 64,    ///< the characters after the key go to the globe, if a panel has the keyboard
     kModifiers = shifted | alted,
   };
   const char* keys;                       ///< way by keyboard, for the list of shortcuts; null: an earlier row names it

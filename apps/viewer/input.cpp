@@ -236,6 +236,7 @@ void Input::on_character(unsigned character) {
 void Input::queue(const Action& action) {
   if (repeating_ && (action.flags & Action::repeats) == 0) return;
   if ((action.flags & Action::types) != 0) ui_.expect_text(true);
+  if ((action.flags & Action::passes) != 0) ui_.leave_panel();
   queued_.push_back({.action = &action});
 }
 

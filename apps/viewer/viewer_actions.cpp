@@ -278,7 +278,7 @@ constinit const Action Viewer::kActions[] = {
      .what = "switch the keyboard between panel and globe",
      .run = [](V v) { v.pass_keyboard(); },
      .key = GLFW_KEY_F6,
-     .flags = Action::unlisted,
+     .flags = Action::unlisted | Action::passes,
      .mouse = "click the panel or the globe"},
     {"F1  ?", "shortcuts", [](V v) { v.help_.toggle(); }, U"?", GLFW_KEY_F1, 0, 0, "Shortcuts"},
     {.keys = "Esc",

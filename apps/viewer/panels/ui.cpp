@@ -138,6 +138,14 @@ bool Ui::panel_has_keyboard() { return ImGui::GetIO().NavActive; }
 
 void Ui::pass_keyboard(const char* title) { ImGui::SetWindowFocus(panel_has_keyboard() ? nullptr : title); }
 
+// ImGui itself notices two frames after pass_keyboard() that no field takes characters.
+void Ui::leave_panel() {
+  if (!panel_has_keyboard()) return;
+  ImGui::GetIO().WantTextInput = ImGui::GetIO().WantCaptureKeyboard = false;
+  ImGui::GetCurrentContext()->WantTextInputNextFrame = 0;
+  expect_text(false);
+}
+
 bool Ui::has_waiting() const { return !waiting_.empty() || letters_wait(); }
 
 bool Ui::on_button(GLFWwindow* window, int button, int action, int modifiers, glm::dvec2 at) const {

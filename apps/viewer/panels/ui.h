@@ -52,6 +52,9 @@ class Ui {
   /// Moves the keyboard from the globe to the panel with this title, or from any panel to the globe.
   static void pass_keyboard(const char* title);
   [[nodiscard]] static bool panel_has_keyboard();
+  /// Gives the keys and characters from now on to the globe; pass_keyboard() follows in the frame. Nothing happens if
+  /// the globe has the keyboard.
+  void leave_panel();
   /// Adjusts text and panels to the window's new scale at the next frame.
   void rescale() { rescaled_ = true; }
   /// On: a text field will open, and characters wait until field_is_ready(). Off: the field closed, and waiting
