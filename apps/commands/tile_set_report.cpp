@@ -132,6 +132,8 @@ std::string to_text(const TileSetReport& report) {
   if (report.info.made_of) text += made_of_text(*report.info.made_of, report.info.square);
   if (report.info.numbers) text += elevation_text(*report.info.numbers);
   if (report.mosaic) text += mosaic_lines(*report.mosaic);
+  if (!report.info.time.empty()) text += fmt::format("time         {}\n", one_line(report.info.time));
+  if (!report.info.times.empty()) text += fmt::format("times        {}\n", one_line(report.info.times));
   for (const std::string& remark : report.info.remarks) text += fmt::format("remark       {}\n", one_line(remark));
   if (report.size_bytes) text += fmt::format("size         {}\n", human_bytes(*report.size_bytes));
   for (const LevelReport& level : report.levels) {
@@ -149,6 +151,8 @@ std::string to_json(const TileSetReport& report) {
   if (const auto& mosaic = report.mosaic) {
     object["files"] = {{"shown", mosaic->files}, {"left_out", mosaic->left_out}, {"groups", mosaic->sheets}};
   }
+  if (!report.info.time.empty()) object["time"] = report.info.time;
+  if (!report.info.times.empty()) object["times"] = report.info.times;
   if (!report.info.remarks.empty()) object["remarks"] = report.info.remarks;
   if (report.size_bytes) object["size_bytes"] = *report.size_bytes;
   if (const auto& made_of = report.info.made_of) {

@@ -272,7 +272,7 @@ const std::deque<MissingTile>& Globe::missing_heights() const {
 LoaderCounts Globe::loading() const {
   LoaderCounts all;
   if (!impl_->may_call("Globe::loading")) return all;
-  for (const auto& layer : impl_->images) {
+  for (const ImageLayer* layer : impl_->all_images()) {
     const LoaderCounts counts = layer->loading();
     all.waiting += counts.waiting;
     all.running += counts.running;

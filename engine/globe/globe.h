@@ -88,6 +88,16 @@ class Globe {
   /// Requests all tiles of an image layer again, or one of them, because the source's data changed. The earlier tiles
   /// stay on the screen until the new ones arrive. Fails if the globe does not have the image layer.
   Status invalidate(LayerId imagery, std::optional<TileId> tile = {});
+  /// Gives an image layer the tiles of another source, such as those of another date. Until the tiles in view have
+  /// come, the layer shows those of the earlier source, and settled() is false: no frame mixes the two. If none of them
+  /// can be had, the layer keeps the earlier source. A source that is on its way gives way to this one. The look stays,
+  /// the attribution text is the source's. Meanwhile the layer takes the room of two (set_budget()). Fails as
+  /// add_imagery(), and if the globe does not have the image layer.
+  Status set_source(LayerId imagery, std::shared_ptr<TileSource> source);
+  /// True while the tiles of another source of an image layer are on their way.
+  [[nodiscard]] bool awaits_source(LayerId imagery) const;
+  /// Returns the source of the tiles that an image layer shows. Fails if the globe does not have the image layer.
+  [[nodiscard]] Result<std::shared_ptr<TileSource>> source(LayerId imagery) const;
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);

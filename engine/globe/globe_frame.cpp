@@ -37,6 +37,14 @@ void GlobeView::Impl::stack_layers() {
     if (!globe->plain) globe->plain = ImageLayer::make_plain(globe->setup());
     stack.insert(stack.begin(), &globe->plain->seen_by(id));
   }
+  planned = stack;
+  for (const auto& layer : globe->coming) {
+    if (globe->image(layer->id())->is_drawn(globe->sides())) {
+      planned.push_back(&layer->seen_by(id));
+    } else {
+      layer->stop_asking();
+    }
+  }
 }
 
 // In side-by-side stereo each eye gets half the width.
@@ -87,15 +95,15 @@ FrameSnapshot GlobeView::Impl::snapshot() {
   FrameSnapshot snapshot{.layers = {}, .sun = {}, .patch_shuffle = globe->experiments.patch_shuffle};
   if (globe->has_night()) snapshot.sun = sun();
   if (!globe->options.unlit) snapshot.light = sun();
-  for (LayerView* layer : stack) snapshot.layers.push_back(layer->snapshot());
+  for (LayerView* layer : planned) snapshot.layers.push_back(layer->snapshot());
   return snapshot;
 }
 
 void GlobeView::Impl::execute(FramePlan& plan) {
-  for (std::size_t k = 0; k < stack.size(); ++k) stack[k]->execute(plan.layers[k], frame);
+  for (std::size_t k = 0; k < planned.size(); ++k) planned[k]->execute(plan.layers[k], frame);
   const bool heights = globe->heights != nullptr;
   if (heights) stats.relief_meshes = globe->relief()->make_meshes(stack.front()->tree(), plan.meshes);
-  for (std::size_t k = 1; heights && k < stack.size(); ++k) stack[k]->copy_relief();
+  for (std::size_t k = 1; heights && k < planned.size(); ++k) planned[k]->copy_relief();
   stats.relief_put_off = plan.put_off;
 }
 
@@ -103,8 +111,9 @@ void GlobeView::Impl::execute(FramePlan& plan) {
 std::size_t Globe::Impl::take_finished() {
   UploadAllowance allowance{options.upload_bytes_per_frame, FrameClock::now() + options.upload_time_per_frame};
   std::size_t bytes = 0;
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    bytes += images[(k + frame) % images.size()]->take_finished(allowance, frame, missing);
+  const std::vector<ImageLayer*> all = all_images();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    bytes += all[(k + frame) % all.size()]->take_finished(allowance, frame, missing);
   }
   return bytes;
 }
@@ -164,12 +173,14 @@ void GlobeView::Impl::count() {
     stats.gpu_memory_refused = stats.gpu_memory_refused || globe->ground_pictures->memory_refused();
   }
   stats.height_bytes = globe->heights ? globe->relief()->bytes() : 0;
-  for (const LayerView* layer : stack) {
+  for (const LayerView* layer : planned) {
     stats.gpu_bytes += layer->layer().gpu_bytes();
     stats.gpu_bytes_granted += layer->layer().gpu_bytes_granted();
     stats.gpu_memory_refused = stats.gpu_memory_refused || layer->layer().tiles().memory_refused();
     stats.patches_held += layer->tree().size();
     stats.tiles_known += layer->layer().tiles_known();
+  }
+  for (const LayerView* layer : stack) {
     if (&layer->layer() == globe->plain.get()) continue;
     stats.tiles_wanted += layer->coverage().tiles;
     stats.tiles_pending += layer->coverage().pending;
@@ -185,7 +196,7 @@ void GlobeView::Impl::plan(Viewport viewport) {
   last_plan = plan_frame(view, snapshot(), selection_options(), std::move(last_plan));
   execute(last_plan);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
-  for (LayerView* layer : stack) layer->ask();
+  for (LayerView* layer : planned) layer->ask();
   plan_ground();
   if (!globe->heights) return;
   stats.heights_pending = globe->heights->ask(viewers());
@@ -253,7 +264,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   if (viewport != drawn) restore_detail();
   still = when == Draw::when_settled || std::pair(camera, globe->options.time) == drawn_at;
   drawn_at = {camera, globe->options.time};
-  changed = false;
+  changed = is_behind = false;
   drawn = viewport;
   drawn_into = framebuffer;
   stats.uploaded_bytes = globe->take_finished();
@@ -268,27 +279,28 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   } else {
     draw_picture(framebuffer, input);
   }
-  for (LayerView* layer : stack) layer->layer().end_frame(*layer, frame);
+  for (LayerView* layer : planned) layer->layer().end_frame(*layer, frame);
   count();
   take_heights();
+  globe->put_in_place();
   return stats;
 }
 
 bool GlobeView::Impl::settled() const {
-  if (frame == 0 || !status) return false;
+  if (frame == 0 || !status || is_behind) return false;
   if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0 || stats.air_put_off) return false;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::waits) || !ground.wants.empty()) return false;
-  return std::ranges::all_of(stack, [](const LayerView* layer) { return layer->settled(); });
+  return std::ranges::all_of(planned, [](const LayerView* layer) { return layer->settled(); });
 }
 
 void GlobeView::Impl::restore_detail() {
   changed = true;
-  for (LayerView* layer : stack) layer->restore_detail();
+  for (LayerView* layer : planned) layer->restore_detail();
 }
 
 void Globe::Impl::restore_detail() {
   changed = true;
-  for (const auto& layer : images) layer->restore_detail();
+  for (ImageLayer* layer : all_images()) layer->restore_detail();
 }
 
 void GlobeView::Impl::tell_settled() {

@@ -41,7 +41,16 @@ struct Globe::Impl {
   [[nodiscard]] LayerId next_id() { return static_cast<LayerId>(++last_id); }
   [[nodiscard]] ViewId next_view() { return static_cast<ViewId>(++last_view); }
   [[nodiscard]] LayerSetup setup() { return {options, experiments.mapping, bell}; }
+  /// All image layers, and those that take the place of one when their tiles have come.
+  [[nodiscard]] std::vector<ImageLayer*> all_images() const;
   void share_gpu();
+  /// Makes an image layer, which takes its share of the memory. Fails as Globe::add_imagery() does.
+  [[nodiscard]] Result<std::unique_ptr<ImageLayer>> make_image(const char* call, LayerId id,
+                                                               std::shared_ptr<TileSource> source,
+                                                               const ImageLook& look);
+  void forget_views_of(const ImageLayer& image);  ///< in the stacks of all views
+  void drop_coming(LayerId id);                   ///< the layer that would take the place of this one, if any
+  void put_in_place();                            ///< puts layers in place whose tiles have come
   Status show_layers();
   void take_cuts();      ///< takes the objects that workers have cut, and lets objects follow the ground
   void follow_ground();  ///< takes changes of what lies on the ground
@@ -67,6 +76,7 @@ struct Globe::Impl {
   std::unique_ptr<HeightLayer> heights;                                 ///< none: the ellipsoid
   std::uint64_t last_id = 0;
   std::vector<std::unique_ptr<ImageLayer>> images;  ///< lowest first
+  std::vector<std::unique_ptr<ImageLayer>> coming;  ///< each takes the place of the image layer with its id
   std::unique_ptr<ImageLayer> plain;                ///< made if the lowest image layer is not opaque
   std::vector<ObjectLayer> objects;
   std::size_t objects_cut = 0;  ///< objects cut since the last frame

@@ -48,8 +48,74 @@ ImageLayer* Globe::Impl::image(LayerId id) const {
   return found == images.end() ? nullptr : found->get();
 }
 
+std::vector<ImageLayer*> Globe::Impl::all_images() const {
+  std::vector<ImageLayer*> all;
+  for (const auto& layer : images) all.push_back(layer.get());
+  for (const auto& layer : coming) all.push_back(layer.get());
+  return all;
+}
+
 void Globe::Impl::share_gpu() {
-  for (const auto& layer : images) layer->set_gpu_bytes(options.gpu_bytes / images.size());
+  const std::vector<ImageLayer*> all = all_images();
+  for (ImageLayer* layer : all) layer->set_gpu_bytes(options.gpu_bytes / all.size());
+}
+
+Result<std::unique_ptr<ImageLayer>> Globe::Impl::make_image(const char* call, LayerId id,
+                                                            std::shared_ptr<TileSource> source, const ImageLook& look) {
+  if (!source) {
+    return Error{
+        fmt::format("{}: there is no source; open one first (open_tile_set()), or give painted_tiles() a "
+                    "function",
+                    call)};
+  }
+  if (Status good = check_source(source->info()); !good) {
+    return refusal((std::string(call) + ": the source").c_str(), good);
+  }
+  if (Status good = check_look(source->info().numbers.has_value(), look); !good) return refusal(call, good);
+  const std::vector<ImageLayer*> others = all_images();
+  const std::size_t share = options.gpu_bytes / (others.size() + 1);
+  for (ImageLayer* layer : others) layer->set_gpu_bytes(share);  // before the new layer takes its share
+  auto layer = std::make_unique<ImageLayer>(id, setup(), std::move(source), look, share);
+  if (layer->gpu_bytes() > 0) return layer;
+  share_gpu();
+  return Error{
+      fmt::format("{}: the driver has no memory for tiles; remove a layer, or give a smaller gpu_bytes", call)};
+}
+
+void Globe::Impl::forget_views_of(const ImageLayer& image) {
+  const auto is_of = [&image](const LayerView* drawn) { return &drawn->layer() == &image; };
+  for (GlobeView::Impl* view : views) {
+    std::erase_if(view->stack, is_of);
+    std::erase_if(view->planned, is_of);
+  }
+}
+
+void Globe::Impl::drop_coming(LayerId id) {
+  const auto is_for = [id](const auto& layer) { return layer->id() == id; };
+  for (const auto& layer : coming) {
+    if (is_for(layer)) forget_views_of(*layer);
+  }
+  if (std::erase_if(coming, is_for) > 0) share_gpu();
+}
+
+// A layer that is not drawn needs no tiles to be in place.
+void Globe::Impl::put_in_place() {
+  const auto is_due = [this](const auto& layer) { return layer->is_ready() || !image(layer->id())->is_drawn(sides()); };
+  if (std::ranges::none_of(coming, is_due)) return;
+  for (auto& layer : coming) {
+    if (!is_due(layer)) continue;
+    const auto place = std::ranges::find(images, layer->id(), [](const auto& one) { return one->id(); });
+    if (!layer->is_void()) {
+      layer->set_look((*place)->look());
+      place->swap(layer);
+      for (GlobeView::Impl* view : views) view->is_behind = true;
+    }
+    forget_views_of(*layer);
+    layer.reset();
+  }
+  std::erase(coming, nullptr);
+  share_gpu();
+  restore_detail();
 }
 
 std::vector<LayerId> Globe::imagery() const {
@@ -62,25 +128,38 @@ std::vector<LayerId> Globe::imagery() const {
 Result<LayerId> Globe::add_imagery(std::shared_ptr<TileSource> source, const ImageLook& look) {
   const auto call = impl_->may_draw("Globe::add_imagery");
   if (!call) return call.error();
-  if (!source) {
-    return Error{
-        "Globe::add_imagery: there is no source; open one first (open_tile_set()), or give painted_tiles() a function"};
-  }
-  if (Status good = check_source(source->info()); !good) return refusal("Globe::add_imagery: the source", good);
-  const bool has_numbers = source->info().numbers.has_value();
-  if (Status good = check_look(has_numbers, look); !good) return refusal("Globe::add_imagery", good);
-  auto& images = impl_->images;
   const LayerId id = impl_->next_id();
-  const std::size_t share = impl_->options.gpu_bytes / (images.size() + 1);
-  for (const auto& layer : images) layer->set_gpu_bytes(share);  // before the new layer takes its share
-  auto layer = std::make_unique<ImageLayer>(id, impl_->setup(), std::move(source), look, share);
-  if (layer->gpu_bytes() == 0) {
-    impl_->share_gpu();
-    return Error{"Globe::add_imagery: the driver has no memory for tiles; remove a layer, or give a smaller gpu_bytes"};
-  }
-  images.push_back(std::move(layer));
+  Result<std::unique_ptr<ImageLayer>> layer = impl_->make_image("Globe::add_imagery", id, std::move(source), look);
+  if (!layer) return layer.error();
+  impl_->images.push_back(*std::move(layer));
   impl_->restore_detail();
   return id;
+}
+
+Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
+  const auto call = impl_->may_draw("Globe::set_source");
+  if (!call) return call.error();
+  const ImageLayer* shown = impl_->image(imagery);
+  if (shown == nullptr) return no_layer("Globe::set_source", "image layer", imagery);
+  auto layer = impl_->make_image("Globe::set_source", imagery, std::move(source), shown->look());
+  if (!layer) return layer.error();
+  impl_->drop_coming(imagery);
+  impl_->coming.push_back(*std::move(layer));
+  impl_->put_in_place();
+  impl_->changed = true;
+  return Done{};
+}
+
+bool Globe::awaits_source(LayerId imagery) const {
+  if (!impl_->may_call("Globe::awaits_source")) return false;
+  return std::ranges::any_of(impl_->coming, [imagery](const auto& layer) { return layer->id() == imagery; });
+}
+
+Result<std::shared_ptr<TileSource>> Globe::source(LayerId imagery) const {
+  if (Status call = impl_->may_call("Globe::source"); !call) return call.error();
+  const ImageLayer* layer = impl_->image(imagery);
+  if (layer == nullptr) return no_layer("Globe::source", "image layer", imagery);
+  return layer->source();
 }
 
 Status Globe::set_look(LayerId imagery, const ImageLook& look) {
@@ -125,9 +204,8 @@ Status Globe::remove(LayerId layer) {
   }
   ImageLayer* image = impl_->image(layer);
   if (image == nullptr) return no_layer("Globe::remove", "layer", layer);
-  for (GlobeView::Impl* view : impl_->views) {
-    std::erase_if(view->stack, [image](const LayerView* drawn) { return &drawn->layer() == image; });
-  }
+  impl_->drop_coming(layer);
+  impl_->forget_views_of(*image);
   std::erase_if(impl_->images, [image](const auto& other) { return other.get() == image; });
   impl_->share_gpu();
   impl_->restore_detail();
@@ -173,7 +251,7 @@ Status Globe::set_elevation(std::optional<ElevationSource> elevation) {
   impl_->renderer->forget_slopes();
   impl_->heights.reset();
   if (elevation) impl_->heights = std::make_unique<HeightLayer>(*elevation, impl_->options, impl_->bell);
-  for (const auto& layer : impl_->images) layer->discard_patches();
+  for (ImageLayer* layer : impl_->all_images()) layer->discard_patches();
   if (impl_->plain) impl_->plain->discard_patches();
   impl_->missing_heights.clear();
   impl_->changed = true;

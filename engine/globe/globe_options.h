@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/utc_time.h"
 #include "geo/body.h"
 #include "sky/cube_picture.h"
 #include "sky/star_catalogue.h"
-#include "sky/utc_time.h"
 #include "view/render_modes.h"
 
 namespace terrella {

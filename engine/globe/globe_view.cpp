@@ -24,6 +24,7 @@ constexpr double kMostCorner_px = 1e6;
 void Globe::Impl::end_views() {
   for (GlobeView::Impl* view : views) {
     view->stack.clear();
+    view->planned.clear();
     view->memory = {};
     view->ground = {};
     view->globe = nullptr;
@@ -138,7 +139,7 @@ bool GlobeView::Impl::needs_frame() const {
   if (globe->heights && globe->heights->has_news(heights_seen, stats.heights_pending > 0)) return true;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::has_news)) return true;
   if (globe->has_ground() && globe->ground_pictures->has_news()) return true;
-  return std::ranges::any_of(stack, [](const LayerView* layer) { return layer->has_news(); });
+  return std::ranges::any_of(planned, [](const LayerView* layer) { return layer->has_news(); });
 }
 
 bool GlobeView::Impl::needs_frame(unsigned framebuffer, Viewport viewport) const {
@@ -206,7 +207,7 @@ GlobeView::~GlobeView() {
   if (globe == nullptr) return;
   static_cast<void>(globe->may_call("GlobeView::~GlobeView"));
   std::erase(globe->views, impl_.get());
-  for (const auto& layer : globe->images) layer->forget(impl_->id);
+  for (ImageLayer* layer : globe->all_images()) layer->forget(impl_->id);
   if (globe->plain) globe->plain->forget(impl_->id);
 }
 

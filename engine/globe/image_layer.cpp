@@ -83,6 +83,16 @@ void ImageLayer::set_look(const ImageLook& look) {
   look_ = look;
 }
 
+bool ImageLayer::is_ready() const {
+  return !views_.empty() && std::ranges::all_of(views_, [](const auto& view) { return view->settled(); });
+}
+
+bool ImageLayer::is_void() const {
+  const auto shows = [](const auto& view) { return view->is_on_screen(); };
+  return std::ranges::none_of(views_, shows) &&
+         std::ranges::any_of(views_, [](const auto& view) { return view->coverage().missing > 0; });
+}
+
 bool ImageLayer::is_outdated(const TileId& id, const TileResidency::Entry& entry) const {
   return entry.is_outdated || (entry.edition < source_->edition() && entry.edition < source_->edition_of(id));
 }

@@ -44,6 +44,10 @@ class ImageLayer {
   [[nodiscard]] LayerId id() const { return id_; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
+  /// True if the layer has the tiles that its views want, or will not get them.
+  [[nodiscard]] bool is_ready() const;
+  /// True if tiles are wanted in view and none of them can be had.
+  [[nodiscard]] bool is_void() const;
   /// See Globe::invalidate(). What is in flight of the tile, or of all, is dropped: it may have been read before the
   /// change.
   void invalidate(const std::optional<TileId>& tile);

@@ -89,7 +89,9 @@ struct GlobeView::Impl {
   const std::thread::id thread = std::this_thread::get_id();
   Camera camera;
   StereoLook stereo;
-  std::vector<LayerView*> stack;  ///< layers that the last frame drew: the opaque base layer, upper layers
+  std::vector<LayerView*> stack;    ///< layers that the last frame drew: the opaque base layer, upper layers
+  std::vector<LayerView*> planned;  ///< the stack, then layers that are coming
+  bool is_behind = false;           ///< a layer took another's place since the last frame
   PictureMemory memory;
   ViewGround ground;
   View view;  ///< view for selection: the eye's, or both eyes'

@@ -3,8 +3,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "base/result.h"
+#include "base/utc_time.h"
 #include "geo/coordinates.h"
-#include "sky/utc_time.h"
 
 namespace terrella {
 

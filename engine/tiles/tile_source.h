@@ -74,6 +74,8 @@ struct TileSetInfo {
   /// The grid of the tiles from which this set's tiles are made.
   std::optional<TileGrid> made_of = {};
   std::optional<CrsSquare> square = {};   ///< square of a `projected` grid: this set's, or that of `made_of`
+  std::string time = {};                  ///< instant of the tiles, as their service writes it; empty: none is known
+  std::string times = {};                 ///< summary of the instants that the service has; empty: none is known
   std::vector<std::string> remarks = {};  ///< notes for the user: what was left out when the set was opened
 };
 

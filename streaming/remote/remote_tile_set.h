@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "streaming/http/range_reader.h"
 #include "streaming/pmtiles/pmtiles_index.h"
+#include "streaming/time/time_steps.h"
 #include "streaming/url.h"
 #include "tiles/tile_source.h"
 
@@ -36,6 +37,7 @@ struct RemoteTileSet {
   /// and {col} are other names of {y} and {x}. {z} may stand for `level_names`. {q} is Bing's quadkey of all three.
   /// {bbox} are the tile's corners in the units of the grid's reference system, as WMS wants them.
   Url url{};
+  TimeSteps times{};            ///< the instants that the service lists, of which info.time is one; may be empty
   bool northing_first = false;  ///< in {bbox}
   std::vector<std::string> subdomains{};
   std::vector<std::string> level_names{};           ///< by level, if they are not numbers (WMTS matrix identifiers)

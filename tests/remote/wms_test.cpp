@@ -124,6 +124,7 @@ TEST(Wms, LimitsFormatsAndTimesAreTheServers) {
   ASSERT_TRUE(timed) << timed.error().message;
   EXPECT_NE(tile_url(*timed, {0, 0, 0}).with_secrets().find("&TIME=2003"), std::string::npos);
   EXPECT_FALSE(timed->missing_life);
+  EXPECT_EQ(timed->info.times, "2003 to 2004: 2 instants");
   EXPECT_TRUE(parsed(document("1.3.0", layer("EPSG:4326", time)))->missing_life) << "the newest time";
   EXPECT_FALSE(parsed(document("1.3.0", layer("EPSG:4326", time)), "http://host/map?TIME=1999"));
 }

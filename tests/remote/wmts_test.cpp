@@ -87,6 +87,9 @@ TEST(Wmts, TimesAreThoseThatAreListed) {
   const RemoteTileSet old = read(test::gibs_document(), with_time("2012-07-09"));
   EXPECT_NE(old.url.with_secrets().find("/2012-07-09/"), std::string::npos) << old.url.redacted();
   EXPECT_FALSE(old.missing_life);
+  EXPECT_EQ(old.info.time, "2012-07-09");
+  EXPECT_EQ(old.info.times, "2000-02-24 to 2024-05-20: 8822 instants, P1D, 1 gap") << "by the calendar";
+  EXPECT_EQ(old.times.count(), 8822);
   EXPECT_NE(
       read(test::gibs_document(), with_time("2012-07-09T12:30:00Z")).url.with_secrets().find("/2012-07-09T12:30:00Z/"),
       std::string::npos);

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "base/utc_time.h"
 #include "geo/camera.h"
-#include "sky/utc_time.h"
 #include "view/ground.h"
 
 namespace terrella {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/viewer/action.h"
-#include "sky/utc_time.h"
+#include "base/utc_time.h"
 #include "view/render_modes.h"
 
 namespace terrella {

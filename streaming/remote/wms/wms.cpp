@@ -110,7 +110,7 @@ Result<std::string> choose_style(const WmsLayer& layer, const std::string& wante
 
 struct Times {
   std::string parameters;  ///< "&TIME=…"
-  bool newest = false;
+  ChosenTime time;         ///< empty for a layer without one
 };
 
 Result<Times> choose_times(const WmsLayer& layer, const std::string& wanted) {
@@ -120,12 +120,12 @@ Result<Times> choose_times(const WmsLayer& layer, const std::string& wanted) {
     const bool is_time = same_letters(dimension.name, "time");
     // The server's default of another dimension needs no parameter.
     if (!is_time && !dimension.otherwise.empty()) continue;
-    const Result<ChosenTime> chosen = choose_time(dimension, is_time ? wanted : std::string());
+    Result<ChosenTime> chosen = choose_time(dimension, is_time ? wanted : std::string());
     if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
     const bool is_height = same_letters(dimension.name, "elevation");
     const std::string name = is_time ? "TIME" : is_height ? "ELEVATION" : "DIM_" + percent_encode(dimension.name);
     times.parameters += fmt::format("&{}={}", name, percent_encode(chosen->value));
-    times.newest = times.newest || (is_time && chosen->newest);
+    if (is_time) times.time = *std::move(chosen);
     has_time = has_time || is_time;
   }
   if (!wanted.empty() && !has_time) return Error{fmt::format("layer \"{}\" has no time dimension", layer.name)};
@@ -198,7 +198,7 @@ Result<RemoteTileSet> describe(const pugi::xml_node& root, const WmsAddress& sai
   if (!format) return format.error();
   const Result<std::string> style = choose_style(*layer, prefer(options.style, said.styles));
   if (!style) return style.error();
-  const Result<Times> times = choose_times(*layer, prefer(options.time, said.time));
+  Result<Times> times = choose_times(*layer, prefer(options.time, said.time));
   if (!times) return times.error();
   Result<WmsGrid> placed = choose_wms_grid(*layer, service->limits, said.crs, options);
   if (!placed) return Error{fmt::format("layer \"{}\": {}", layer->name.substr(0, 100), placed.error().message)};
@@ -216,7 +216,8 @@ Result<RemoteTileSet> describe(const pugi::xml_node& root, const WmsAddress& sai
   set.info.format = format->format;
   set.info.name = (layer->title.empty() ? layer->name : layer->title).substr(0, kMaxOgcTextBytes);
   set.info.attribution = prefer(layer->attribution, service->provider).substr(0, kMaxOgcTextBytes);
-  if (times->newest) set.missing_life = kNewestMissingLife;
+  if (times->time.newest) set.missing_life = kNewestMissingLife;
+  set_times(std::move(times->time), set);
   return set;
 }
 

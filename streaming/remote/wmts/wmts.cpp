@@ -170,20 +170,20 @@ Result<std::string> choose_style(const WmtsLayer& layer, const std::string& want
   return Error{fmt::format("layer \"{}\" has no style \"{}\"; it has: {}", layer.name, wanted, list_of(layer.styles))};
 }
 
-/// Chooses a value for every dimension. Returns true if the time is the newest.
-Result<bool> choose_dimensions(const WmtsLayer& layer, const std::string& time, WmtsRequest& request) {
-  bool newest = false;
+/// Chooses a value for every dimension. Returns that of the time, which is empty for a layer without one.
+Result<ChosenTime> choose_dimensions(const WmtsLayer& layer, const std::string& time, WmtsRequest& request) {
+  ChosenTime chosen_time;
   bool has_time = false;
   for (const WmtsDimension& dimension : layer.dimensions) {
     const bool is_time = same_letters(dimension.name, "time");
-    const Result<ChosenTime> chosen = choose_time(dimension, is_time ? time : std::string());
+    Result<ChosenTime> chosen = choose_time(dimension, is_time ? time : std::string());
     if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
     request.dimensions[dimension.name] = chosen->value;
-    newest = newest || (is_time && chosen->newest);
+    if (is_time) chosen_time = *std::move(chosen);
     has_time = has_time || is_time;
   }
   if (!time.empty() && !has_time) return Error{fmt::format("layer \"{}\" has no time dimension", layer.name)};
-  return newest;
+  return chosen_time;
 }
 
 Result<std::string> make_url(const WmtsLayer& layer, const WmtsRequest& request, const pugi::xml_node& capabilities) {
@@ -234,8 +234,8 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
                       .matrix_set = chosen->matrix_set,
                       .media_type = format->media_type,
                       .dimensions = {}};
-  const Result<bool> newest = choose_dimensions(*layer, options.time, request);
-  if (!newest) return newest.error();
+  Result<ChosenTime> time = choose_dimensions(*layer, options.time, request);
+  if (!time) return time.error();
   const Result<std::string> url = make_url(*layer, request, capabilities);
   if (!url) return Error{fmt::format("layer \"{}\": {}", layer->name, url.error().message)};
 
@@ -249,7 +249,8 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
   set.info.body = chosen->placed.body;
   set.level_names = std::move(chosen->placed.level_names);
   set.shifts = std::move(chosen->placed.shifts);
-  if (*newest) set.missing_life = kNewestMissingLife;
+  if (time->newest) set.missing_life = kNewestMissingLife;
+  set_times(*std::move(time), set);
   return set;
 }
 

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/remote/remote_tile_set.h"
+#include "streaming/time/time_steps.h"
 
 namespace terrella {
 
@@ -17,10 +19,15 @@ struct WmtsDimension {
 struct ChosenTime {
   std::string value{};
   bool newest = false;  ///< within a day of the last listed time: some tiles may not exist yet
+  TimeSteps steps{};    ///< all that are listed; empty if one of them is no time
+  std::string fault{};  ///< fault of a list that was not understood; else empty
 };
 
 /// Chooses the time to request: `given` if listed, else the default. Does not check that `given` is a step of a period.
 /// The error lists the available times. thread: any
 [[nodiscard]] Result<ChosenTime> choose_time(const WmtsDimension& dimension, const std::string& given);
+
+/// Tells a tile set the chosen time and all others. thread: any
+void set_times(ChosenTime chosen, RemoteTileSet& set);
 
 }  // namespace terrella

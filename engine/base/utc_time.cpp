@@ -1,4 +1,4 @@
-#include "sky/utc_time.h"
+#include "base/utc_time.h"
 
 #include <cmath>
 #include <ctime>
