@@ -56,6 +56,7 @@ Status restyle(Globe& globe, SceneObjects& layer, const LayerFeatures& features)
   Result<FeatureStyle> style = overlaid(layer.style, layer.option.style_over);
   if (!style) return Error{layer.option.file + ": " + style.error().message};
   layer.style = *std::move(style);
+  layer.shown_when = shown_when(features.parts, layer.style);
   return globe.edit_objects(layer.id, restyled(features.parts, layer.style));
 }
 
@@ -74,6 +75,7 @@ Result<SceneObjects> add_objects(Globe& globe, const ObjectsOption& option, bool
   if (file->complaints_left_out > 0) print_message("and {} more\n", file->complaints_left_out);
   layer.faultless = file->complaints.empty();
   layer.has_pictures = file->ground_overlays > 0;
+  layer.shown_when = std::move(file->shown_when);
   layer.bounds = bounds_of(file->scene);
   const bool needs_features = keep_features || !option.style_over.empty();
   LayerFeatures features = needs_features ? layer_features(file->scene, layer.style) : LayerFeatures{};

@@ -7,7 +7,7 @@
 #include "apps/open_scene/listed_features.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "globe/globe.h"
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 #include "streaming/objects/classes/layer_features.h"
 #include "streaming/objects/geojson_objects.h"
 
@@ -24,13 +24,14 @@ void add_label_font(GlobeOptions& options);
 struct SceneObjects {
   LayerId id = LayerId::none;
   ObjectsOption option;
-  std::optional<GeoRect> bounds{};     ///< none without objects
-  bool faultless = true;               ///< false if objects were faulty
-  FeatureStyle style{};                ///< the style in which they are drawn
-  LayerFeatures features{};            ///< empty unless they are kept
-  std::vector<ListedFeature> list{};   ///< empty unless features are kept
-  bool has_pictures = false;           ///< the file is a KML file whose pictures are imagery
-  std::vector<ClusterPoint> points{};  ///< may be in clusters; empty unless features are kept, or clusters asked for
+  std::optional<GeoRect> bounds{};      ///< none without objects
+  bool faultless = true;                ///< false if objects were faulty
+  FeatureStyle style{};                 ///< the style in which they are drawn
+  LayerFeatures features{};             ///< empty unless they are kept
+  std::vector<ListedFeature> list{};    ///< empty unless features are kept
+  std::vector<ShownWhen> shown_when{};  ///< features that are not always shown
+  bool has_pictures = false;            ///< the file is a KML file whose pictures are imagery
+  std::vector<ClusterPoint> points{};   ///< may be in clusters; empty unless features are kept, or clusters asked for
 };
 
 /// Reads a file of objects in its style, or a model and puts it in its place. The error names the file. thread: any

@@ -145,11 +145,13 @@ struct ScenePicture::Parts {
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
   std::map<LayerId, PointClusters> clusters{};
+  std::map<LayerId, ShownFeatures> shown{};
 
   Result<GlobeOptions> prepare(const Body& body);
   Status open();
   void check_fills();
-  Status update_clusters();
+  /// Shows features and clusters of objects as the globe's camera sees them.
+  Status follow_view();
   Status add_drawings();
   /// The part of the planet with data, which takes a look at the tiles: once.
   const std::optional<GeoRect>& with_data();
@@ -203,6 +205,7 @@ Result<std::unique_ptr<ScenePicture>> ScenePicture::open(const RenderCommand& co
   for (const SceneObjects& layer : picture->parts_->scene.objects) {
     const Status clustered = picture->set_clusters(layer.id, layer.points, layer.option.cluster_px);
     if (!clustered) return clustered.error();
+    if (const Status shown = picture->set_shown(layer.id, layer.shown_when); !shown) return shown.error();
   }
   return picture;
 }
@@ -223,11 +226,28 @@ Camera ScenePicture::first_camera() const {
 }
 
 Status ScenePicture::set_clusters(LayerId layer, std::span<const ClusterPoint> points, double radius_px) {
-  parts_->clusters.erase(layer);
   if (radius_px == 0.0) return Done{};
   Result<PointClusters> made = PointClusters::make(layer, points, radius_px);
   if (!made) return made.error();
   parts_->clusters.emplace(layer, *std::move(made));
+  return Done{};
+}
+
+void ScenePicture::forget_features(LayerId layer) {
+  parts_->clusters.erase(layer);
+  parts_->shown.erase(layer);
+}
+
+Status ScenePicture::set_shown(LayerId layer, std::vector<ShownWhen> features) {
+  if (const auto earlier = parts_->shown.find(layer); earlier != parts_->shown.end()) {
+    const Status ended = earlier->second.end(globe());
+    parts_->shown.erase(earlier);
+    if (!ended) return ended;
+  }
+  if (features.empty()) return Done{};
+  Result<ShownFeatures> made = ShownFeatures::make(layer, std::move(features));
+  if (!made) return made.error();
+  parts_->shown.emplace(layer, *std::move(made));
   return Done{};
 }
 
@@ -238,9 +258,14 @@ const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
   return *part;
 }
 
-Status ScenePicture::Parts::update_clusters() {
+Status ScenePicture::Parts::follow_view() {
   const std::vector<LayerId> layers = scene.globe->objects();
-  std::erase_if(clusters, [&](const auto& one) { return std::ranges::find(layers, one.first) == layers.end(); });
+  const auto is_gone = [&](const auto& one) { return std::ranges::find(layers, one.first) == layers.end(); };
+  std::erase_if(clusters, is_gone);
+  std::erase_if(shown, is_gone);
+  for (auto& [layer, features] : shown) {
+    if (Status done = features.update(*scene.globe, command.scene.size); !done) return done;
+  }
   for (auto& [layer, points] : clusters) {
     if (Status done = points.update(*scene.globe, command.scene.size); !done) return done;
   }
@@ -266,7 +291,7 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   const unsigned framebuffer = own.target->framebuffer();
   Globe& globe = *own.scene.globe;
   globe.set_camera(camera);
-  if (const Status clustered = own.update_clusters(); !clustered) return clustered.error();
+  if (const Status followed = own.follow_view(); !followed) return followed.error();
   render_all(globe, own.command, camera, framebuffer);
   const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
   if (StopSignals::came()) return Error{where + "stopped; no picture was written"};

@@ -9,7 +9,8 @@
 #include "base/result.h"
 #include "codecs/image.h"
 #include "globe/globe.h"
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
+#include "globe/features/shown_features.h"
 
 namespace terrella {
 
@@ -48,8 +49,12 @@ class ScenePicture {
 
   [[nodiscard]] Globe& globe();
   [[nodiscard]] Result<LayerId> add(const OverlayOption& overlay);  ///< on top; see add_overlay()
-  /// Draws points of an object layer in clusters from now on; a radius of 0: not any more, of objects that are new.
+  /// Forgets the clusters and shown features of a layer whose objects were replaced.
+  void forget_features(LayerId layer);
+  /// Draws points of an object layer in clusters from now on; a radius of 0: not. For objects that are new.
   [[nodiscard]] Status set_clusters(LayerId layer, std::span<const ClusterPoint> points, double radius_px);
+  /// Shows features of an object layer as `features` says from now on, instead of as an earlier call said.
+  [[nodiscard]] Status set_shown(LayerId layer, std::vector<ShownWhen> features);
   [[nodiscard]] Camera first_camera() const;   ///< --camera, or default_camera()
   [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.

@@ -249,9 +249,10 @@ std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py
     const std::vector<ClusterPoint> points = cluster_points(file.scene);
     auto layer = picture.globe().add_objects(std::move(file.scene));
     if (!layer) return layer;
-    const Status clustered = picture.set_clusters(*layer, points, cluster_px);
-    if (!clustered) static_cast<void>(picture.globe().remove(*layer));
-    return clustered ? layer : clustered.error();
+    Status done = picture.set_clusters(*layer, points, cluster_px);
+    if (done) done = picture.set_shown(*layer, std::move(file.shown_when));
+    if (!done) static_cast<void>(picture.globe().remove(*layer));
+    return done ? layer : done.error();
   });
   const auto layer = static_cast<std::uint64_t>(value_or_raise(added));
   self.features()[layer] = std::move(features);
@@ -264,7 +265,9 @@ void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojs
   value_or_raise(self.with_picture([&](ScenePicture& picture) -> Status {
     const std::vector<ClusterPoint> points = cluster_points(file.scene);
     Status set = picture.globe().set_objects(LayerId{layer}, std::move(file.scene));
-    return set ? picture.set_clusters(LayerId{layer}, points, features.cluster_px) : set;
+    if (set) picture.forget_features(LayerId{layer});
+    if (set) set = picture.set_clusters(LayerId{layer}, points, features.cluster_px);
+    return set ? picture.set_shown(LayerId{layer}, std::move(file.shown_when)) : set;
   }));
   self.features()[layer] = std::move(features);
 }
@@ -281,8 +284,10 @@ void set_style(PythonGlobe& self, std::uint64_t layer, const py::object& style, 
   if (values && (values->ndim() != 1 || numbers.size() != features.count)) {
     throw py::value_error(fmt::format("values must be one number for each of the {} features", features.count));
   }
-  value_or_raise(self.with_globe(
-      [&](Globe& globe) { return globe.edit_objects(LayerId{layer}, restyled(features.parts, look, numbers)); }));
+  value_or_raise(self.with_picture([&](ScenePicture& picture) -> Status {
+    Status done = picture.globe().edit_objects(LayerId{layer}, restyled(features.parts, look, numbers));
+    return done ? picture.set_shown(LayerId{layer}, shown_when(features.parts, look, numbers)) : done;
+  }));
 }
 
 void move(PythonGlobe& self, std::uint64_t layer, std::uint64_t id, double lat, double lon, double height_m,

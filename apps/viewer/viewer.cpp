@@ -155,7 +155,7 @@ std::string Viewer::job() const {
 void Viewer::draw_frame(Viewport framebuffer) {
   const auto start = Clock::now();
   globe_.set_camera(nameable(navigator_.camera()));
-  layers_.follow_clusters(framebuffer);
+  layers_.follow_view(framebuffer);
   if (pictures_.is_drawing()) {
     pictures_.draw_picture(framebuffer);
     frame_.drop();                                              // the globe was drawn at another size

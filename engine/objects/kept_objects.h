@@ -28,9 +28,10 @@ struct PartRef {
 struct Kept {
   PartRef next{};            ///< the next part of the same feature
   std::uint32_t number = 0;  ///< PickedObject::index
-  bool visible = true, selected = false, removed = false;
+  bool visible = true, filtered = false, selected = false, removed = false;
   /// Lines and areas: the last job to cut the object, and the job of the cut that it has.
   std::uint32_t asked_number = 0, placed_number = 0;
+  [[nodiscard]] bool is_shown() const { return visible && !filtered; }
 };
 
 /// The end of a line that an arrow marks.

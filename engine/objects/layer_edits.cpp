@@ -37,6 +37,7 @@ bool LayerObjects::change(const ObjectChange& change) {
   return each_part(change.id, [&](PartRef part) {
     Kept& object = kept(part);
     object.visible = change.visible.value_or(object.visible);
+    object.filtered = change.filtered.value_or(object.filtered);
     object.selected = change.selected.value_or(object.selected);
     change_part(part, change);
     draw_again(part);

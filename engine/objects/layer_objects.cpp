@@ -156,7 +156,7 @@ bool LayerObjects::has(ObjectPart part) const {
 
 ObjectColor LayerObjects::drawn(ObjectColor color, const Kept& kept) const {
   if (kept.selected) color = {selected_color_.red, selected_color_.green, selected_color_.blue, color.alpha};
-  color.alpha = kept.visible ? static_cast<std::uint8_t>(std::lround(opacity_ * color.alpha)) : std::uint8_t{0};
+  color.alpha = kept.is_shown() ? static_cast<std::uint8_t>(std::lround(opacity_ * color.alpha)) : std::uint8_t{0};
   return color;
 }
 

@@ -74,7 +74,7 @@ void LayerObjects::index_part(PartRef part) {
 }
 
 void LayerObjects::take(PartRef part, ObjectPicker& picker) {
-  if (!kept(part).visible) return;
+  if (!kept(part).is_shown()) return;
   if (part.kind == ObjectKind::point) {
     const KeptPoint& point = points_[part.index];
     if (point.arrow != LineEnd::none) return;

@@ -184,7 +184,7 @@ void LayerObjects::sort_spheres() {
 MeshStand LayerObjects::stand(const KeptMesh& mesh) const {
   const SplitPosition p = split_position(mesh.place_m);
   MeshStand stand{p.high, p.low, {}};
-  if (mesh.visible) stand.ecef_from_model = axes_of(mesh.object);
+  if (mesh.is_shown()) stand.ecef_from_model = axes_of(mesh.object);
   if (mesh.selected) stand.tint = wash_of(selected_color_);
   return stand;
 }

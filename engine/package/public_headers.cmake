@@ -3,7 +3,8 @@
 set(TERRELLA_PUBLIC_HEADERS
   engine/globe/data_files.h
   engine/globe/globe.h
-  engine/globe/point_clusters.h
+  engine/globe/features/point_clusters.h
+  engine/globe/features/shown_features.h
   engine/geo/great_circle.h
   engine/geo/ranges.h
   engine/geo/measure.h

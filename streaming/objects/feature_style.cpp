@@ -1,8 +1,11 @@
 #include "streaming/objects/feature_style.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "streaming/objects/object_style.h"
@@ -39,6 +42,21 @@ ObjectChange change_of(const FeatureParts& feature, const ObjectStyle& style) {
   return change;
 }
 
+/// Reads the look of a feature in a style, with its number as the field "value".
+ObjectStyle look_of(const FeatureParts& feature, const FeatureStyle& style, std::span<const double> values) {
+  json fields = feature.of.feature ? json::parse(feature.of.feature->properties, nullptr, false) : json::object();
+  if (!fields.is_object()) fields = json::object();
+  const std::size_t k = static_cast<std::size_t>(feature.of.id) - 1;
+  if (k < values.size() && std::isfinite(values[k])) fields["value"] = values[k];
+  return read_object_style(applied(style, fields), [](const std::string&) {});
+}
+
+/// True for a JSON text that may say when something is shown.
+bool says_when(std::string_view text) {
+  constexpr std::array<std::string_view, 4> kNames = {"\"min-zoom\"", "\"max-zoom\"", "\"time-begin\"", "\"time-end\""};
+  return std::ranges::any_of(kNames, [text](std::string_view name) { return text.find(name) != text.npos; });
+}
+
 }  // namespace
 
 std::vector<FeatureParts> features_of(const ObjectScene& scene) {
@@ -65,15 +83,24 @@ ObjectEdits restyled(std::span<const FeatureParts> features, const FeatureStyle&
                      std::span<const double> values) {
   ObjectEdits edits;
   for (const FeatureParts& feature : features) {
-    json fields = feature.of.feature ? json::parse(feature.of.feature->properties, nullptr, false) : json::object();
-    if (!fields.is_object()) fields = json::object();
-    const std::size_t k = static_cast<std::size_t>(feature.of.id) - 1;
-    if (k < values.size() && std::isfinite(values[k])) fields["value"] = values[k];
-    const ObjectStyle look = read_object_style(applied(style, fields), [](const std::string&) {});
+    const ObjectStyle look = look_of(feature, style, values);
     edits.changes.push_back(change_of(feature, look));
     if (feature.has_label) edits.texts.push_back({feature.of.id, look.label.text});
   }
   return edits;
+}
+
+std::vector<ShownWhen> shown_when(std::span<const FeatureParts> features, const FeatureStyle& style,
+                                  std::span<const double> values) {
+  const bool by_style = !style.is_none() && says_when(style.rules().properties.dump());
+  std::vector<ShownWhen> found;
+  for (const FeatureParts& feature : features) {
+    if (!by_style && !(feature.of.feature && says_when(feature.of.feature->properties))) continue;
+    ShownWhen when = look_of(feature, style, values).shown;
+    when.id = feature.of.id;
+    if (!is_always_shown(when)) found.push_back(when);
+  }
+  return found;
 }
 
 }  // namespace terrella

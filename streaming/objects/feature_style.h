@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "geo/object_edits.h"
+#include "geo/shown_when.h"
 
 namespace terrella {
 
@@ -52,5 +53,10 @@ struct FeatureParts {
 /// their defaults. The colour of a feature of several kinds is that of its point, or else of its line. thread: any
 [[nodiscard]] ObjectEdits restyled(std::span<const FeatureParts> features, const FeatureStyle& style,
                                    std::span<const double> values = {});
+
+/// Returns the features that are not always shown in a style, or by their own properties for no style. `values` are
+/// those of restyled(). thread: any
+[[nodiscard]] std::vector<ShownWhen> shown_when(std::span<const FeatureParts> features, const FeatureStyle& style,
+                                                std::span<const double> values = {});
 
 }  // namespace terrella

@@ -61,6 +61,8 @@ void FeatureTaker::take(const json& feature, std::size_t index) {
   const ObjectId id{static_cast<std::uint64_t>(first_) + index};
   file_.next = ObjectId{static_cast<std::uint64_t>(id) + 1};
   name_feature(style, id, fields);
+  style.shown.id = id;
+  if (!is_always_shown(style.shown)) file_.shown_when.push_back(style.shown);
   if (!style.icon.empty()) set_icon(style, complain);
   if (!style.model.empty()) style.mesh.model = models_.get(style.model, complain);
   add_geometry(*geometry, style, quakes_ ? ThirdCoordinate::depth_km : ThirdCoordinate::height_m, file_.scene,

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "geo/objects.h"
+#include "geo/shown_when.h"
 #include "streaming/objects/feature_style.h"
 
 namespace terrella {
@@ -26,7 +27,8 @@ struct ObjectFile {
   std::string attribution = {};         ///< the document's "attribution"; may be empty
   std::vector<std::string> complaints;  ///< each names the file, the feature counted from 1, and the action taken
   std::size_t complaints_left_out = 0;
-  std::size_t ground_overlays = 0;  ///< pictures of a KML file, which the file gives as imagery
+  std::vector<ShownWhen> shown_when = {};  ///< features that are not always shown (globe/features/shown_features.h)
+  std::size_t ground_overlays = 0;         ///< pictures of a KML file, which the file gives as imagery
 };
 
 /// Reads the objects of GeoJSON (RFC 7946): all its geometries. Positions are longitude, latitude, and metres over the

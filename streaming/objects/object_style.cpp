@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "base/number.h"
+#include "base/utc_time.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {
@@ -130,6 +133,27 @@ class StyleReader {
     return std::nullopt;
   }
 
+  /// An instant of ISO 8601, also a year or a month alone, or with the slashes of GDAL; or milliseconds since 1970.
+  std::optional<UtcTime> instant(const char* name) const {
+    constexpr double kMost_ms = 2.5e14;  // the year 9892
+    constexpr std::size_t kYear = 4, kMonth = 7;
+    const json* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (value->is_number() && std::abs(value->get<double>()) < kMost_ms) {
+      return UtcTime(std::chrono::milliseconds(std::llround(value->get<double>())));
+    }
+    std::string said = text(name);
+    std::ranges::replace(said, '/', '-');
+    if (said.ends_with("+00")) said.resize(said.size() - 3);
+    if (said.size() == kYear) said += "-01";
+    if (said.size() == kMonth) said += "-01";
+    const Result<UtcTime> time = parse_utc(said);
+    if (time) return *time;
+    complain_(
+        fmt::format("\"{}\" must be an instant in UTC, such as 2026-06-21T12:00Z, or milliseconds since 1970", name));
+    return std::nullopt;
+  }
+
   /// A digit or a letter. Empty for the name of an icon: there are no icons by name.
   std::string marker_symbol() const {
     const json* value = find("marker-symbol");
@@ -192,6 +216,23 @@ void read_text(const StyleReader& reader, LabelObject& label) {
   if (const auto spacing = reader.number("text-letter-spacing", 0.0, 1.0)) {
     look.letter_spacing_em = static_cast<float>(*spacing);
   }
+}
+
+/// Reads when a feature is shown. Bounds in the wrong order would hide it for ever.
+ShownWhen read_shown(const StyleReader& reader, const Complain& complain) {
+  ShownWhen when{.from = reader.instant("time-begin"), .before = reader.instant("time-end")};
+  when.from_zoom = reader.number("min-zoom", kLeastZoom, kMostZoom).value_or(kLeastZoom);
+  when.before_zoom = reader.number("max-zoom", kLeastZoom, kMostZoom).value_or(kMostZoom);
+  if (when.from_zoom >= when.before_zoom) {
+    complain("\"min-zoom\" must be less than \"max-zoom\"");
+    when.from_zoom = kLeastZoom;
+    when.before_zoom = kMostZoom;
+  }
+  if (when.from && when.before && *when.from >= *when.before) {
+    complain("\"time-begin\" must be before \"time-end\"");
+    when.from = when.before = std::nullopt;
+  }
+  return when;
 }
 
 /// Reads an icon. Other programs may use its properties differently without one.
@@ -276,6 +317,7 @@ ObjectStyle read_object_style(const json& properties, const Complain& complain) 
   if (style.label.text.empty()) style.label.text = symbol;
   if (const auto priority = reader.number("label-priority", -1e9, 1e9)) style.label.priority = *priority;
   read_text(reader, style.label);
+  style.shown = read_shown(reader, complain);
   return style;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geo/objects.h"
+#include "geo/shown_when.h"
 
 namespace terrella {
 
@@ -20,6 +21,7 @@ struct ObjectStyle {
   std::optional<float> icon_size_px;  ///< none: the picture's own size
   std::string model;                  ///< file of a point's model; empty: none
   MeshObject mesh;                    ///< all but its place; without a model the point is drawn
+  ShownWhen shown;                    ///< all but the feature's id
 };
 
 /// Called with a message for each fault.

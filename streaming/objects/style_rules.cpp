@@ -34,6 +34,8 @@ constexpr std::array kProperties = {"altitude-mode",
                                     "marker-color",
                                     "marker-size",
                                     "marker-symbol",
+                                    "max-zoom",
+                                    "min-zoom",
                                     "model",
                                     "radius_m",
                                     "scale",
@@ -49,17 +51,21 @@ constexpr std::array kProperties = {"altitude-mode",
                                     "text-letter-spacing",
                                     "text-size",
                                     "through_surface",
+                                    "time-begin",
+                                    "time-end",
                                     "title"};
 
 /// Names of MapLibre's style specification, and those of simplestyle with the same meaning.
-constexpr std::array<std::pair<const char*, const char*>, 8> kOtherNames{{{"circle-color", "marker-color"},
-                                                                          {"fill-color", "fill"},
-                                                                          {"fill-extrusion-height", "extrude_m"},
-                                                                          {"icon-image", "icon"},
-                                                                          {"line-color", "stroke"},
-                                                                          {"line-opacity", "stroke-opacity"},
-                                                                          {"line-width", "stroke-width"},
-                                                                          {"text-field", "title"}}};
+constexpr std::array<std::pair<const char*, const char*>, 10> kOtherNames{{{"circle-color", "marker-color"},
+                                                                           {"fill-color", "fill"},
+                                                                           {"fill-extrusion-height", "extrude_m"},
+                                                                           {"icon-image", "icon"},
+                                                                           {"line-color", "stroke"},
+                                                                           {"line-opacity", "stroke-opacity"},
+                                                                           {"line-width", "stroke-width"},
+                                                                           {"maxzoom", "max-zoom"},
+                                                                           {"minzoom", "min-zoom"},
+                                                                           {"text-field", "title"}}};
 
 /// An expression is a list that begins with a word; other lists are values, such as the lengths of dashes.
 bool is_expression(const json& value) { return value.is_array() && !value.empty() && value[0].is_string(); }

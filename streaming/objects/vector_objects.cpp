@@ -98,7 +98,10 @@ class LayerReader {
           fmt::format("feature {}: its coordinates have no place in degrees: {}", index + 1, messages.error()));
     }
     json properties = properties_of(feature, definition);
-    if (is_kml_) follow_kml(properties, geometry);
+    if (is_kml_) {
+      follow_kml(properties, geometry);
+      add_times(feature, definition, properties);
+    }
     Result<json> shape = geojson_of(geometry);
     if (!shape) return taker_.complain_of(fmt::format("feature {}: {}", index + 1, shape.error().message));
     add_style(feature, is_kml_, properties);

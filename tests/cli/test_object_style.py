@@ -81,6 +81,19 @@ class ObjectStyle(ProgramTest):
             self.assert_fails(WRONG_USAGE, "render", "--objects", "p.geojson", "--cluster", radius, "-o", "no.png", *VIEW,
                               says=["--cluster", "10"])
 
+    def test_features_are_shown_at_their_zoom_levels_and_times(self):
+        """From 4000 km a picture 150 px high has level 1.95, and 0.95 from 8000 km."""
+        days = ("2026-06-01", "2026-06-03")
+        self.write("f.geojson", json.dumps({**square(50), "properties": {"day": days[0], "level": 1.5}}).encode())
+        look = {"fill": "#00ff00", "fill-opacity": 1, "stroke-width": 0}
+        self.assertEqual(self.drawn({**look, "minzoom": ["get", "level"]}), (0, 255, 0))
+        self.assertNotEqual(self.drawn({**look, "maxzoom": ["get", "level"]}), (0, 255, 0))
+        self.write("style.json", json.dumps({**look, "time-begin": ["get", "day"], "time-end": days[1]}).encode())
+        drawn = ("render", "--objects", "f.geojson", "--object-style", "style.json", "-o", "out.png", *VIEW)
+        for time, shown in (("2026-05-31", False), ("2026-06-02", True), ("2026-06-03", False)):
+            self.assert_done(*drawn, "--time", time + "T12:00Z")
+            self.assertEqual(png.pixel(png.read(self.folder / "out.png"), *MIDDLE) == (0, 255, 0), shown, time)
+
     def test_it_needs_a_file_and_objects(self):
         self.assert_fails(FAILED, "render", "--objects", "f.geojson", "--object-style", "nowhere.json", "-o", "no.png",
                           *VIEW, says=["nowhere.json"])

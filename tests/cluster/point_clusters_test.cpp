@@ -1,5 +1,5 @@
 // Clusters of a layer: drawn, picked, opened by coming nearer, and taken away.
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from real_window import WindowTest, wait_until
+from real_window import SIZE, WindowTest, wait_until
 
 DISC = (38, 92, 150)
 ROW, CLUSTERS = 65, 162  # pixels under the panel's upper edge
@@ -70,6 +70,21 @@ class Clusters(WindowTest):
         self.screenshot(viewer, "apart")
         self.shows(viewer, "apart", False)
         self.assertEqual(viewer.quit(), 0)
+
+
+    def test_features_come_and_go_with_the_zoom_level_twice(self):
+        """From 9000 km the window, 480 px high, has level 2.5; six steps of the wheel are more than a level."""
+        area = {"type": "Feature", "properties": {"fill": "#265c96", "fill-opacity": 1, "stroke-width": 0, "max-zoom": 3},
+                "geometry": {"type": "Polygon", "coordinates": [[[-26, 15], [-18, 15], [-18, 25], [-26, 25], [-26, 15]]]}}
+        (self.folder / "area.geojson").write_text(json.dumps(area), encoding="ascii")
+        viewer = self.start("--objects", "area.geojson", "--camera", "20,-22,9000000", "--unlit")
+        viewer.settled()
+        middle = lambda: near(viewer.grab()[SIZE[1] // 2][SIZE[0] // 2], DISC)
+        for time in range(2):
+            wait_until(f"shown, {time}", middle)
+            viewer.wheel(SIZE[0] // 2, SIZE[1] // 2, 6)
+            wait_until(f"hidden from nearby, {time}", lambda: not middle())
+            viewer.wheel(SIZE[0] // 2, SIZE[1] // 2, -6)
 
 
 if __name__ == "__main__":

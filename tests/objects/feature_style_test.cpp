@@ -204,5 +204,25 @@ TEST(FeatureStyle, AWidthOfNothingHidesALine) {
   EXPECT_FALSE(edits.changes[3].size_px);
 }
 
+TEST(FeatureStyle, AnotherStyleShowsFeaturesAtOtherLevels) {
+  std::istringstream text(R"({"type":"FeatureCollection","features":[
+      {"type":"Feature","properties":{"rank":2,"min-zoom":9},"geometry":{"type":"Point","coordinates":[0,0]}},
+      {"type":"Feature","properties":{"rank":5},"geometry":{"type":"Point","coordinates":[1,0]}}]})");
+  const std::vector<FeatureParts> parts = features_of(parse_geojson_objects(text, "z.geojson")->scene);
+  const auto levels = [&parts](const FeatureStyle& style, std::span<const double> values = {}) {
+    std::vector<std::pair<ObjectId, double>> all;
+    for (const ShownWhen& when : shown_when(parts, style, values)) all.emplace_back(when.id, when.from_zoom);
+    return all;
+  };
+  using testing::ElementsAre;
+  using testing::Pair;
+  EXPECT_THAT(levels({}), ElementsAre(Pair(ObjectId{1}, 9.0))) << "by its own properties";
+  EXPECT_THAT(levels(style_of(R"({"marker-color":"#f00"})")), ElementsAre(Pair(ObjectId{1}, 9.0)));
+  EXPECT_THAT(levels(style_of(R"({"minzoom":["get","rank"]})")),
+              ElementsAre(Pair(ObjectId{1}, 2.0), Pair(ObjectId{2}, 5.0)));
+  EXPECT_THAT(levels(style_of(R"({"min-zoom":["get","value"]})"), std::vector<double>{0.0, 7.0}),
+              ElementsAre(Pair(ObjectId{2}, 7.0)));
+}
+
 }  // namespace
 }  // namespace terrella

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <fstream>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace terrella {
 namespace {
@@ -319,6 +321,40 @@ TEST(GeojsonObjects, AStyleThatIsWrongIsComplainedOfAndTheObjectDrawnWithoutIt) 
     EXPECT_THAT(complaint, HasSubstr("f.geojson: feature 1 (\"Alps\"): "));
   }
   EXPECT_THAT(file.complaints[0], HasSubstr("\"marker-color\" is not a colour"));
+}
+
+TEST(GeojsonObjects, SomeFeaturesAreShownAtSomeLevelsAndInstants) {
+  const auto when = [](const std::string& properties) {
+    const ObjectFile file = good(collection(feature(kPoint, properties)));
+    EXPECT_THAT(file.complaints, ElementsAre()) << properties;
+    return file.shown_when.empty() ? ShownWhen{} : file.shown_when[0];
+  };
+  const auto at = [](const char* time) { return *parse_utc(time); };
+  EXPECT_EQ(when("{}").id, ObjectId::none) << "always";
+  EXPECT_EQ(when(R"({"min-zoom":3.5})").id, ObjectId{1});
+  EXPECT_EQ(when(R"({"min-zoom":3.5})").from_zoom, 3.5);
+  EXPECT_EQ(when(R"({"max-zoom":7})").before_zoom, 7.0);
+  EXPECT_EQ(when(R"({"time-begin":"2020"})").from, at("2020-01-01"));
+  EXPECT_EQ(when(R"({"time-begin":"2020-07"})").from, at("2020-07-01"));
+  EXPECT_EQ(when(R"({"time-end":"2020-07-03T04:05:06Z"})").before, at("2020-07-03T04:05:06Z"));
+  EXPECT_EQ(when(R"({"time-end":"2020/07/03 04:05:06+00"})").before, at("2020-07-03T04:05:06Z")) << "as GDAL writes it";
+  EXPECT_EQ(when(R"({"time-begin":1234567890000})").from, at("2009-02-13T23:31:30Z"));
+}
+
+TEST(GeojsonObjects, LevelsAndInstantsThatAreWrongDoNotHideAFeature) {
+  for (const auto& [wrong, says] : std::vector<std::pair<const char*, const char*>>{
+           {R"({"min-zoom":25})", "\"min-zoom\" must be a number from 0 to 24"},
+           {R"({"max-zoom":"far"})", "\"max-zoom\" must be a number from 0 to 24"},
+           {R"({"min-zoom":5,"max-zoom":5})", "\"min-zoom\" must be less than \"max-zoom\""},
+           {R"({"time-begin":"yesterday"})", "\"time-begin\" must be an instant"},
+           {R"({"time-end":"2020-02-30"})", "\"time-end\" must be an instant"},
+           {R"({"time-end":1e300})", "\"time-end\" must be an instant"},
+           {R"({"time-begin":"2021","time-end":"2020"})", "\"time-begin\" must be before \"time-end\""}}) {
+    const ObjectFile file = good(collection(feature(kPoint, wrong)));
+    EXPECT_THAT(file.complaints, ElementsAre(HasSubstr(says))) << wrong;
+    EXPECT_THAT(file.shown_when, ElementsAre()) << wrong;
+    EXPECT_EQ(file.scene.points.size(), 1U) << wrong;
+  }
 }
 
 TEST(GeojsonObjects, WhatIsWrongIsLeftOutAndNamedAndTheRestStays) {

@@ -190,6 +190,24 @@ TEST_F(VectorObjects, PointsOfKmlHaveTheColourAndTheScaleOfTheirIcon) {
   EXPECT_EQ(file.scene.points[2].size_px, 14.0F);
 }
 
+// 2009-02-13T23:31:30Z is 1,234,567,890 s after 1970, and 2001-09-09T01:46:40Z is 1,000,000,000.
+TEST_F(VectorObjects, KmlKeepsItsTimes) {
+  const std::string point = "<Point><coordinates>5,5</coordinates></Point></Placemark>";
+  const ObjectFile file = good(write(
+      "t.kml",
+      kml("<Placemark><TimeSpan><begin>2001-09-09T01:46:40Z</begin><end>2009-02-14T00:31:30+01:00</end></TimeSpan>" +
+          point + "<Placemark><TimeStamp><when>2009-02-13T23:31:30Z</when></TimeStamp>" + point + "<Placemark>" +
+          point)));
+  const auto at = [](int seconds) { return UtcTime(std::chrono::seconds(seconds)); };
+  EXPECT_THAT(file.complaints, ElementsAre());
+  ASSERT_EQ(file.shown_when.size(), 2U);
+  EXPECT_EQ(file.shown_when[0].id, ObjectId{1});
+  EXPECT_EQ(file.shown_when[0].from, at(1'000'000'000));
+  EXPECT_EQ(file.shown_when[0].before, at(1'234'567'890));
+  EXPECT_EQ(file.shown_when[1].from, at(1'234'567'890));
+  EXPECT_FALSE(file.shown_when[1].before);
+}
+
 TEST_F(VectorObjects, LinksOfKmlAreNamedAndItsPicturesCounted) {
   const ObjectFile file =
       good(write("n.kml", kml(R"(<Placemark><Point><coordinates>5,5</coordinates></Point></Placemark>

@@ -247,6 +247,22 @@ class Globes(ModuleTest):
             with self.assertRaisesRegex(ValueError, "add_objects"):
                 globe.set_style(layer + 99, style("people"))
 
+    def test_marks_come_with_their_zoom_level(self):
+        marks = {"type": "FeatureCollection", "features": [mark(0.0, 0)]}
+        with terrella.Globe(NATURAL_EARTH, camera=(0, 0, 8e6), size=SIZE, unlit=True) as globe:
+            layer = globe.add_objects(marks, style={"min-zoom": 3})
+
+            def seen(height_m):
+                globe.camera = (0, 0, height_m)
+                globe.render()
+                return globe.pick(80, 60)["layer"] == layer
+
+            self.assertEqual([seen(8e6), seen(8e5), seen(8e6)], [False, True, False])
+            globe.set_style(layer, {"max-zoom": 3})
+            self.assertEqual([seen(8e6), seen(8e5)], [True, False])
+            globe.set_objects(layer, marks)
+            self.assertEqual([seen(8e6), seen(8e5)], [True, True])
+
     def test_a_line_grows_to_what_a_whole_one_draws(self):
         def line(*longitudes):
             return {"type": "Feature", "properties": {"stroke": "#ff00ff", "stroke-width": 6},

@@ -12,7 +12,7 @@
 #include "apps/open_scene/options/surface_options.h"
 #include "apps/open_scene/project/read_project.h"
 #include "globe/experiments.h"
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 #include "sky/almanac.h"
 
 namespace terrella {

@@ -32,7 +32,7 @@ struct ObjectsOption {
   std::optional<Geodetic> model_place{};  ///< set for a model: where it stands
   bool shown = true;
   double opacity = 1.0;     ///< [0, 1]
-  double cluster_px = 0.0;  ///< radius of clusters of points (globe/point_clusters.h); 0: none
+  double cluster_px = 0.0;  ///< radius of clusters of points (globe/features/point_clusters.h); 0: none
 };
 
 /// Options shared by `view` and `render`; the parse has checked every value.

@@ -15,7 +15,7 @@
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/project/project_words.h"
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 #include "streaming/objects/feature_style.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 
 namespace terrella {
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/viewer/panels/panel_items.h"
+#include "globe/features/shown_features.h"
 
 namespace terrella {
 namespace {
@@ -40,7 +41,10 @@ float FrameGraph::draw_above(float foot, const FrameStats& stats) const {
                                      stats.tiles_wanted == 1 ? "tile" : "tiles", stats.tiles_pending,
                                      stats.tiles_missing)
                              .c_str());
-  ImGui::TextUnformatted(fmt::format("{} patches, {} draw calls", stats.patches, stats.draw_calls).c_str());
+  const ImVec2 pixel = ImGui::GetIO().DisplayFramebufferScale;
+  const double zoom = zoom_of(context_.globe, {int(size.x * pixel.x), int(size.y * pixel.y)});
+  ImGui::TextUnformatted(
+      fmt::format("{} patches, {} draw calls, zoom {:.1f}", stats.patches, stats.draw_calls, zoom).c_str());
   ImGui::TextUnformatted(fmt::format("{:.0f} MB of textures, {:.0f} MB of heights", double(stats.gpu_bytes) / kMegabyte,
                                      double(stats.height_bytes) / kMegabyte)
                              .c_str());

@@ -316,10 +316,12 @@ void Layers::check_fills() {
   }
 }
 
-void Layers::follow_clusters(Viewport picture) {
+void Layers::follow_view(Viewport picture) {
   for (LayerRow& row : rows_) {
-    if (!row.clusters) continue;
-    const Status followed = row.clusters->follow(context_.globe, row.id, row.objects.cluster_px, picture);
+    Status followed = row.style ? row.style->follow(context_.globe, row.id, picture) : Status(Done{});
+    if (followed && row.clusters) {
+      followed = row.clusters->follow(context_.globe, row.id, row.objects.cluster_px, picture);
+    }
     if (!followed) say(followed.error().message);
   }
 }

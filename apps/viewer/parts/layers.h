@@ -32,8 +32,8 @@ class Layers : public Panel {
 
   /// Shows the failures of tiles in their rows, and reports the first of each row. Call this once per frame.
   void watch_tiles(const FrameStats& stats);
-  /// Shows the clusters of points as the camera sees them in a picture. Call this before each frame.
-  void follow_clusters(Viewport picture);
+  /// Shows the features and clusters of objects as the camera sees them in a picture. Call this before each frame.
+  void follow_view(Viewport picture);
   /// Takes back, or makes again, what the user did to looks, order and presence of layers.
   void undo();
   void redo();

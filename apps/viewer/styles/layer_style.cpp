@@ -70,6 +70,18 @@ Status LayerStyle::restore(Globe& globe, LayerId layer, const Drawn& drawn) {
   return Done{};
 }
 
+Status LayerStyle::follow(Globe& globe, LayerId layer, Viewport picture) {
+  if (std::exchange(shown_number_, drawn_.number) != drawn_.number) {
+    if (shown_) {
+      if (Status ended = shown_->end(globe); !ended) return ended;
+    }
+    Result<ShownFeatures> made = ShownFeatures::make(layer, shown_when(features_->parts, drawn_.style));
+    if (!made) return made.error();
+    shown_ = *std::move(made);
+  }
+  return shown_->update(globe, picture);
+}
+
 std::shared_ptr<LayerStyle> style_of_layer(LayerFeatures features, FeatureStyle drawn) {
   if (features.parts.empty()) return nullptr;
   return std::make_shared<LayerStyle>(std::make_shared<const LayerFeatures>(std::move(features)), std::move(drawn));

@@ -13,6 +13,7 @@
 #include "apps/viewer/styles/style_choice.h"
 #include "base/result.h"
 #include "globe/globe.h"
+#include "globe/features/shown_features.h"
 #include "streaming/objects/classes/layer_features.h"
 
 namespace terrella {
@@ -54,6 +55,9 @@ class LayerStyle {
   [[nodiscard]] const Drawn& drawn() const { return drawn_; }
   /// Draws the features of a layer in a style that they had before.
   Status restore(Globe& globe, LayerId layer, const Drawn& drawn);
+  /// Shows the features of the layer that the drawn style shows at the globe's time, from this far. Call it before each
+  /// frame, for the same layer.
+  Status follow(Globe& globe, LayerId layer, Viewport picture);
 
   /// The drawn classes; nullopt for a style without classes.
   [[nodiscard]] const std::optional<ClassStyle>& classes() const { return drawn_.classes; }
@@ -67,6 +71,8 @@ class LayerStyle {
   std::shared_future<std::vector<FieldValues>> fields_;
   bool waiting_ = false;
   Drawn drawn_;
+  std::optional<ShownFeatures> shown_;
+  std::uint64_t shown_number_ = 0;  ///< number of the style of `shown_`
   std::optional<StyleChoice> wish_;
   bool save_wish_ = false;
 };

@@ -68,6 +68,7 @@ std::uint32_t LayerObjects::add_track_part(std::uint32_t like, std::vector<Geode
   part.object = std::make_shared<LineObject>(alike(*lines_[like].object, std::move(places)));
   part.number = lines_[like].number;
   part.visible = lines_[like].visible;
+  part.filtered = lines_[like].filtered;
   part.selected = lines_[like].selected;
   part.part.is_part = true;
   const auto index = static_cast<std::uint32_t>(lines_.size());

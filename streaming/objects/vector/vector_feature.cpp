@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/number.h"
 #include "streaming/objects/geojson_objects.h"
@@ -163,6 +166,23 @@ void add_marker_size(double scale, json& properties) {
   properties["marker-size"] = scale < kSmall ? "small" : scale > kLarge ? "large" : "medium";
 }
 
+/// Returns a field as milliseconds since 1970; none if it has no time. A time without a zone is in UTC.
+std::optional<std::int64_t> milliseconds_of(OGRFeatureH feature, int field) {
+  constexpr int kUtc = 100, kQuarter_min = 15;  // GDAL's flags of zones are quarters of an hour from kUtc
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, zone = 0;
+  float second = 0.0F;
+  if (gdal().OGR_F_IsFieldSetAndNotNull(feature, field) == 0 ||
+      gdal().OGR_F_GetFieldAsDateTimeEx(feature, field, &year, &month, &day, &hour, &minute, &second, &zone) == 0)
+    return {};
+  using namespace std::chrono;
+  const year_month_day date = std::chrono::year(year) / month / day;
+  if (!date.ok()) return {};
+  const int ahead_min = zone > 1 ? kQuarter_min * (zone - kUtc) : 0;
+  const auto time =
+      sys_days(date) + hours(hour) + minutes(minute - ahead_min) + milliseconds(std::lround(1e3F * second));
+  return milliseconds(time.time_since_epoch()).count();
+}
+
 }  // namespace
 
 Result<json> geojson_of(OGRGeometryH geometry) {
@@ -204,6 +224,16 @@ void add_style(OGRFeatureH feature, bool with_icons, json& properties) {
       if (scale) add_marker_size(*scale, properties);
       if (with_icons) tool.add_icon(scale.value_or(1.0), properties);
     }
+  }
+}
+
+void add_times(OGRFeatureH feature, OGRFeatureDefnH definition, json& properties) {
+  constexpr std::array<std::pair<const char*, const char*>, 3> kNames = {
+      {{"begin", "time-begin"}, {"timestamp", "time-begin"}, {"end", "time-end"}}};
+  for (const auto& [field, name] : kNames) {
+    const int index = gdal().OGR_FD_GetFieldIndex(definition, field);
+    if (index < 0 || properties.contains(name)) continue;
+    if (const auto time_ms = milliseconds_of(feature, index)) properties[name] = *time_ms;
   }
 }
 

@@ -16,5 +16,8 @@ namespace terrella {
 /// Adds the colours and widths of a feature's style, under the names of simplestyle, to properties that lack them.
 /// `with_icons`: also pictures, as KML names them, that are no addresses. thread: that of the feature
 void add_style(OGRFeatureH feature, bool with_icons, nlohmann::json& properties);
+/// Adds the times of a KML feature, its "begin" or "timestamp" and its "end", as milliseconds since 1970 under the
+/// names of styles, to properties that lack them. thread: that of the feature
+void add_times(OGRFeatureH feature, OGRFeatureDefnH definition, nlohmann::json& properties);
 
 }  // namespace terrella

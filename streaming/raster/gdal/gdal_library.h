@@ -37,7 +37,8 @@ namespace terrella {
   X(CPLForceToASCII) X(CPLIsUTF8) X(CSLDestroy) X(GDALDatasetGetLayer) X(GDALDatasetGetLayerCount) \
   X(OCTDestroyCoordinateTransformation) X(OCTNewCoordinateTransformation) X(OCTTransform) X(OGR_FD_GetFieldCount) \
   X(OGR_FD_GetFieldDefn) X(OGR_F_Destroy) X(OGR_F_GetFieldAsDouble) X(OGR_F_GetFieldAsInteger64) \
-  X(OGR_F_GetFieldAsString) X(OGR_F_GetGeometryRef) X(OGR_F_GetStyleString) X(OGR_F_IsFieldSetAndNotNull) \
+  X(OGR_FD_GetFieldIndex) X(OGR_F_GetFieldAsDateTimeEx) X(OGR_F_GetFieldAsString) X(OGR_F_GetGeometryRef) \
+  X(OGR_F_GetStyleString) X(OGR_F_IsFieldSetAndNotNull) \
   X(OGR_Fld_GetNameRef) X(OGR_Fld_GetSubType) X(OGR_Fld_GetType) X(OGR_GT_Flatten) X(OGR_G_DestroyGeometry) \
   X(OGR_G_GetGeometryCount) X(OGR_G_GetGeometryName) X(OGR_G_GetGeometryRef) X(OGR_G_GetGeometryType) \
   X(OGR_G_GetLinearGeometry) X(OGR_G_GetPointCount) X(OGR_G_GetX) X(OGR_G_GetY) X(OGR_G_GetZ) X(OGR_G_Is3D) \

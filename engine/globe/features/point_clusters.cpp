@@ -1,4 +1,4 @@
-#include "globe/point_clusters.h"
+#include "globe/features/point_clusters.h"
 
 #include <fmt/format.h>
 
