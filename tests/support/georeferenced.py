@@ -1,5 +1,7 @@
 """Makes georeferenced pictures with GDAL's programs, and locates their pixels with GDAL."""
 
+import atexit
+import json
 import pathlib
 import re
 import struct
@@ -10,10 +12,34 @@ PLACED_PX = 0.01
 
 
 def gdal(*arguments, stdin=None):
-    done = subprocess.run([str(a) for a in arguments], input=stdin, capture_output=True, text=True, timeout=60)
+    """Runs a program of GDAL; returns what it prints."""
+    words = [str(a) for a in arguments]
+    if words[0] in Worker.PROGRAMS:
+        return Worker.ask(words, stdin)
+    done = subprocess.run(words, input=stdin, capture_output=True, text=True, timeout=60)
     if done.returncode != 0:
         raise AssertionError(f"{arguments}\n{done.stdout}{done.stderr}")
     return done.stdout
+
+
+class Worker:
+    """One process for all calls of the programs that are called most."""
+
+    PROGRAMS = ("gdal_translate", "gdalinfo", "gdallocationinfo", "gdaltransform")
+    process = None
+
+    @classmethod
+    def ask(cls, words, stdin):
+        if cls.process is None:
+            cls.process = subprocess.Popen(["/usr/bin/python3", "-B", str(pathlib.Path(__file__).with_name("gdal_worker.py"))],
+                                           stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            atexit.register(cls.process.communicate)
+        cls.process.stdin.write(json.dumps({"words": words, "input": stdin}) + "\n")
+        cls.process.stdin.flush()
+        answer = json.loads(cls.process.stdout.readline())
+        if "error" in answer:
+            raise AssertionError(f"{words}\n{answer['error']}")
+        return answer["output"]
 
 
 def pgm(path, width, height):

@@ -3,7 +3,6 @@
 import json
 import math
 import pathlib
-import subprocess
 
 from georeferenced import gdal
 
@@ -101,6 +100,5 @@ def place_spots(path, size, *options, spots=SPOTS):
     width, height = size
     base = pathlib.Path(path).with_name("base.pgm")
     base.write_bytes(b"P5\n%d %d\n255\n" % (width, height) + spotted(width, height, spots))
-    subprocess.run(["gdal_translate", "-q", *map(str, options), str(base), str(path)], check=True, timeout=60,
-                   capture_output=True)
+    gdal("gdal_translate", "-q", *options, base, path)
     base.unlink()
