@@ -6,8 +6,11 @@
 
 namespace terrella {
 namespace {
-constexpr int kFirstCapacity = 512;
-}
+// Places of a new buffer: enough for a small picture, and a driver in software zeroes all of them.
+constexpr int kFirstCapacity = 64;
+// Patches that are kept although no view draws them any more.
+constexpr int kKept = 512;
+}  // namespace
 
 PatchBuffers::PatchBuffers(int segments, const TileGrid* heights)
     : heights_(heights != nullptr ? std::optional(*heights) : std::nullopt),
@@ -46,7 +49,7 @@ bool PatchBuffers::grow() {
 int PatchBuffers::free_place(std::uint64_t frame) {
   if (used_ < capacity_) return used_++;
   const bool is_full = by_age_.empty() || by_age_.back().last_drawn + views_ > frame;
-  if (is_full && grow()) return used_++;
+  if ((is_full || capacity_ < kKept) && grow()) return used_++;
   if (is_full) refused_in_ = frame;
   if (by_age_.empty()) return -1;
   const Place oldest = by_age_.back();

@@ -12,8 +12,8 @@
 namespace terrella {
 namespace {
 
-// Enough for the first view of a planet; a driver in software zeroes all of them.
-constexpr int kFirstSlots = 64;
+// Slots of a new array: enough for a small picture of a planet, and a driver in software zeroes all of them.
+constexpr int kFirstSlots = 16;
 // Fewest slots that are asked for once there is no memory for more.
 constexpr int kLeastMore = 8;
 constexpr std::uint8_t kPlainColour[4] = {30, 38, 52, 255};
