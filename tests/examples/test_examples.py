@@ -16,7 +16,7 @@ SOURCE = HERE.parent.parent
 BUILD = pathlib.Path(os.environ["TERRELLA_BUILD"])
 EARTH = BUILD / "data/earth.gpkg"
 
-sys.path.insert(0, str(HERE.parent / "window"))
+sys.path[:0] = [str(HERE.parent / "window"), str(HERE.parent / "support")]
 from real_window import Display, wait_until  # noqa: E402
 
 MAGENTA = (255, 0, 255)

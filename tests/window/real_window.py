@@ -6,15 +6,17 @@ import os
 import queue
 import re
 import shutil
-import struct
 import subprocess
 import tempfile
 import threading
 import time
 import unittest
+import zlib
 from pathlib import Path
 
+import pictures
 import png
+import window_pixels
 from ellipsoid_camera import Camera
 
 PROGRAM = os.environ.get("TERRELLA", "terrella")
@@ -105,6 +107,7 @@ class Viewer:
         self.camera = None
         self.next_camera()
         self.window = wait_until("the window", self._find_window)
+        self.pixels = None
 
     def _read(self):
         for line in self.program.stdout:
@@ -169,18 +172,20 @@ class Viewer:
         self.xdotool("key", name)
 
     def grab(self):
-        """The window's pixels as rows of 32-bit numbers; faster than a screenshot."""
-        data = subprocess.run(["xwd", "-silent", "-id", self.window], env=self.environment, capture_output=True,
-                              check=True, timeout=60).stdout
-        header = struct.unpack(">25I", data[:100])
-        start, height, line, colours = header[0], header[5], header[12], header[19]
-        start += 12 * colours
-        return [memoryview(data[start + y * line : start + (y + 1) * line]).cast("I") for y in range(height)]
+        """The window's pixels as rows of 32-bit numbers."""
+        if not self.pixels:
+            self.pixels = window_pixels.Connection(self.environment["DISPLAY"], self.window)
+        return self.pixels.grab()
 
-    def save_grab(self, file):
-        """Keeps the picture for a person to look at."""
-        subprocess.run(["sh", "-c", 'xwd -silent -id "$1" | convert xwd:- "$2"', "sh", self.window, str(file)],
-                       env=self.environment, check=True, timeout=60)
+    def save_grab(self, file, rows=None):
+        """Keeps a grab for a person to look at; without one, the picture that shows."""
+        rows = rows or self.grab()
+        data = bytearray()
+        for row in rows:
+            pixels, line = row.tobytes(), bytearray(3 * len(row))
+            line[0::3], line[1::3], line[2::3] = pixels[2::4], pixels[1::4], pixels[0::4]  # from blue, green, red and 0
+            data += b"\0" + line
+        Path(file).write_bytes(pictures.png_of(len(rows[0]), len(rows), zlib.compress(data, 1)))
 
     def clipboard(self):
         done = subprocess.run(["xclip", "-selection", "clipboard", "-o"], env=self.environment, capture_output=True,
@@ -239,6 +244,8 @@ class Viewer:
         return tuple(int(values[name]) for name in ("X", "Y", "WIDTH", "HEIGHT"))
 
     def close(self):
+        if self.pixels:
+            self.pixels.close()
         if self.program.poll() is None:
             self.program.terminate()
         self.program.wait()

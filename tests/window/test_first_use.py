@@ -26,11 +26,11 @@ class FirstUse(WindowTest):
     def shoot(self, name):
         """Keeps the picture at rest, in which nothing overlaps."""
         time.sleep(0.2)
-        self.viewer.settled()
-        width, height = self.viewer.geometry()[2:]
+        picture = self.viewer.settled()
+        width, height = len(picture[0]), len(picture)
         faults = self.viewer.layout.faults(width, height)
         self.count += 1
-        self.viewer.save_grab(self.folder / f"{self.count:02}_{name}.png")
+        self.viewer.save_grab(self.folder / f"{self.count:02}_{name}.png", picture)
         self.assertEqual(faults, [], name)
 
     def panel(self, name):
