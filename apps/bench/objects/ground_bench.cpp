@@ -117,7 +117,8 @@ class Tracks {
 /// A globe with one layer of objects, and the frames that are timed.
 class GroundScene {
  public:
-  GroundScene(const Geodetic& eye, bool relief, OffscreenTarget& target) : eye_(eye), target_(target) {
+  GroundScene(const Geodetic& eye, bool relief, OffscreenTarget& target, Viewport size)
+      : eye_(eye), target_(target), size_(size) {
     GlobeOptions how;
     how.upload_bytes_per_frame = how.gpu_bytes;
     how.upload_time_per_frame = std::chrono::seconds(1);
@@ -149,13 +150,13 @@ class GroundScene {
     return ms_since(start);
   }
   void settle() {
-    if (!globe_->render_until_settled(target_.framebuffer(), kObjectPicture, Clock::now() + kLongestSettling)) {
+    if (!globe_->render_until_settled(target_.framebuffer(), size_, Clock::now() + kLongestSettling)) {
       throw std::runtime_error("the globe has not settled in five minutes");
     }
   }
   void draw(const Geodetic& eye, Angle heading) {
     globe_->set_camera({.eye = eye, .heading = heading});
-    last_ = globe_->render(target_.framebuffer(), kObjectPicture);
+    last_ = globe_->render(target_.framebuffer(), size_);
   }
   /// Draws with a camera that turns.
   void draw() { draw(eye_, Angle::degrees(0.2 * (++turn_ % 8))); }
@@ -164,8 +165,7 @@ class GroundScene {
   [[nodiscard]] const Geodetic& eye() const { return eye_; }
   /// The object in the middle of the picture.
   [[nodiscard]] ObjectId middle() const {
-    const GlobePick pick =
-        globe_->pick(0.5 * glm::dvec2(kObjectPicture.width_px, kObjectPicture.height_px), kObjectPicture);
+    const GlobePick pick = globe_->pick(0.5 * glm::dvec2(size_.width_px, size_.height_px), size_);
     if (!pick.object) throw std::runtime_error("no object is in the middle of the picture");
     return pick.object->of.id;
   }
@@ -174,6 +174,7 @@ class GroundScene {
  private:
   Geodetic eye_;
   OffscreenTarget& target_;
+  Viewport size_;
   std::unique_ptr<Globe> globe_;
   LayerId layer_ = LayerId::none;
   FrameStats last_ = {};
@@ -185,7 +186,11 @@ class GroundScene {
 class GroundBench {
  public:
   GroundBench(const BenchOptions& options, Report& report)
-      : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kObjectPicture) {}
+      : options_(options),
+        report_(report),
+        quick_(options.effort == Effort::quick),
+        size_(object_picture(options.effort)),
+        target_(size_) {}
 
   void run() {
     const Geodetic home{Angle::degrees(20), Angle::degrees(10), 3e6}, town{Angle::degrees(47), Angle::degrees(7), 2e3};
@@ -233,7 +238,7 @@ class GroundBench {
            double limit, double settled_ms = 0.0) {
     if (!base.empty() && !options_.wants(name)) return;
     options_.progress(name);
-    scenes_.push_back(std::make_unique<GroundScene>(eye, relief, target_));
+    scenes_.push_back(std::make_unique<GroundScene>(eye, relief, target_, size_));
     GroundScene& scene = *scenes_.back();
     const bool any = !objects.empty();
     const double ms = any ? scene.add(std::move(objects)) : 0.0;
@@ -253,7 +258,7 @@ class GroundBench {
   /// the next frame.
   void edits(const std::string& areas, const Geodetic& eye, ObjectScene objects) {
     if (!options_.wants(areas)) return;
-    GroundScene* scene = scenes_.emplace_back(std::make_unique<GroundScene>(eye, false, target_)).get();
+    GroundScene* scene = scenes_.emplace_back(std::make_unique<GroundScene>(eye, false, target_, size_)).get();
     scene->add(std::move(objects));
     const ObjectId middle = scene->middle();
     time(areas + ", one recoloured", areas, 1.3, [scene, middle, k = 0]() mutable {
@@ -318,6 +323,7 @@ class GroundBench {
   const BenchOptions& options_;
   Report& report_;
   bool quick_;
+  Viewport size_;
   OffscreenTarget target_;
   std::vector<std::unique_ptr<GroundScene>> scenes_;
   std::vector<Subject> subjects_;

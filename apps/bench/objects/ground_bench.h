@@ -7,8 +7,10 @@
 
 namespace terrella::bench {
 
-/// The pictures that bench_objects() draws.
-inline constexpr Viewport kObjectPicture{1024, 1024};
+/// The size of the pictures that bench_objects() draws.
+inline Viewport object_picture(Effort effort) {
+  return effort == Effort::quick ? Viewport{192, 192} : Viewport{1024, 1024};
+}
 /// Objects that have not settled within this are a failure.
 inline constexpr std::chrono::seconds kLongestSettling{300};
 

@@ -22,8 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kFrames = 15;
-
 double processor_ms(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -109,7 +107,11 @@ ObjectScene countries(int count) {
 class ObjectBench {
  public:
   ObjectBench(const BenchOptions& options, Report& report)
-      : options_(options), report_(report), quick_(options.effort == Effort::quick), target_(kObjectPicture) {
+      : options_(options),
+        report_(report),
+        quick_(options.effort == Effort::quick),
+        size_(object_picture(options.effort)),
+        target_(size_) {
     GlobeOptions how;
     add_label_font(how);
     globe_ = value_of(Globe::create(how));
@@ -123,16 +125,17 @@ class ObjectBench {
     settle();
     const auto edit = [&](LayerId layer, ObjectEdits edits) { check(globe_->edit_objects(layer, std::move(edits))); };
     const std::string all = fmt::format("{} positions", traffic.size());
-    measure("nothing", "a frame", kFrames, [] {});
+    const int frames = quick_ ? 5 : 15;
+    measure("nothing", "a frame", frames, [] {});
     ObjectEdits moves;
     measure(
-        all, "edit_objects", kFrames, [&] { edit(air, std::move(moves)); },
+        all, "edit_objects", frames, [&] { edit(air, std::move(moves)); },
         [&] { traffic.step(), moves = traffic.moves(traffic.size()); });
     measure(
-        "1 position", "edit_objects", kFrames, [&] { edit(air, std::move(moves)); },
+        "1 position", "edit_objects", frames, [&] { edit(air, std::move(moves)); },
         [&] { traffic.step(), moves = traffic.moves(1); });
     bool selected = false;
-    measure("an area is highlighted", "edit_objects", kFrames,
+    measure("an area is highlighted", "edit_objects", frames,
             [&] { edit(ground, {.changes = {{.id = ObjectId{7}, .selected = selected = !selected}}}); });
     ObjectScene scene;
     measure(
@@ -160,7 +163,7 @@ class ObjectBench {
     std::size_t cut = 0;
     const auto late = Clock::now() + kLongestSettling;
     do {
-      cut += globe_->render(target_.framebuffer(), kObjectPicture).objects_cut;
+      cut += globe_->render(target_.framebuffer(), size_).objects_cut;
       while (!globe_->settled() && !globe_->needs_frame()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (Clock::now() > late) throw std::runtime_error("the objects have not settled in five minutes");
     } while (!globe_->settled());
@@ -194,7 +197,7 @@ class ObjectBench {
     const LayerId layer = value_of(globe_->add_objects({.points = scene.points}));
     settle();
     std::mt19937 random(8);
-    std::uniform_real_distribution<double> pixel(0.0, kObjectPicture.width_px);
+    std::uniform_real_distribution<double> pixel(0.0, size_.width_px);
     const auto row = [&](const char* how, int rounds, const auto& pick) {
       std::vector<double> ms;
       for (int round = 0; round < rounds; ++round) {
@@ -205,9 +208,9 @@ class ObjectBench {
       }
       report_.rows.push_back({what, std::string(how), median(ms), kNoFigure, std::int64_t{0}});
     };
-    static_cast<void>(globe_->pick({512.0, 512.0}, kObjectPicture));  // makes the index
-    row("pick", 200, [&](glm::dvec2 at) { static_cast<void>(globe_->pick(at, kObjectPicture)); });
-    const View view = globe_->view(kObjectPicture);
+    static_cast<void>(globe_->pick({0.5 * size_.width_px, 0.5 * size_.height_px}, size_));  // makes the index
+    row("pick", 200, [&](glm::dvec2 at) { static_cast<void>(globe_->pick(at, size_)); });
+    const View view = globe_->view(size_);
     const Ground ground = globe_->ground();
     row("scan", 10, [&](glm::dvec2 at) { static_cast<void>(pick_object(view, ground, scene, at)); });
     check(globe_->remove(layer));
@@ -240,6 +243,7 @@ class ObjectBench {
   const BenchOptions& options_;
   Report& report_;
   bool quick_;
+  Viewport size_;
   OffscreenTarget target_;
   std::unique_ptr<Globe> globe_;
 };
