@@ -10,7 +10,7 @@
 namespace terrella {
 namespace {
 
-constexpr int kFirstLayers = 32;
+constexpr int kFirstLayers = 8;  // a driver in software zeroes them
 constexpr std::size_t kBudget_bytes = 64UL << 20;
 constexpr float kSteepest = 1000.0F;  // a half float holds it, also where a gap of the data makes a cliff
 
@@ -86,8 +86,10 @@ int SlopeTextures::layer_of(const Relief& relief, const TileId& id, std::uint64_
   }
   found->second.last_used = frame;
   found->second.changes_seen = relief.changes_seen();
+  const std::vector<glm::vec2> slopes = relief.field().slopes(id, kGutter_px);
   std::vector<std::uint32_t> texels;
-  for (const glm::vec2& slope : relief.field().slopes(id, kGutter_px)) {
+  texels.reserve(slopes.size());
+  for (const glm::vec2& slope : slopes) {
     texels.push_back(glm::packHalf2x16(glm::clamp(slope, -kSteepest, kSteepest)));
   }
   glTextureSubImage3D(texture_.name(), 0, 0, 0, found->second.layer, slot_px(), slot_px(), 1, GL_RG, GL_HALF_FLOAT,
