@@ -1,6 +1,7 @@
 """Makes georeferenced pictures with GDAL's programs, and locates their pixels with GDAL."""
 
 import atexit
+import functools
 import json
 import pathlib
 import re
@@ -44,8 +45,12 @@ class Worker:
 
 def pgm(path, width, height):
     """A gray picture whose brightness says where in it a pixel is: smooth, so that resampling keeps it."""
-    rows = bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
-    pathlib.Path(path).write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+    pathlib.Path(path).write_bytes(b"P5\n%d %d\n255\n" % (width, height) + slope(width, height))
+
+
+@functools.lru_cache(maxsize=4)
+def slope(width, height):
+    return bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
 
 
 def brightness(x, y, width, height):
@@ -95,7 +100,7 @@ def tiff(width, height, tags, pixels=None):
             data += raw
         else:
             directory += struct.pack("<HHI", number, kind, count) + raw.ljust(4, b"\0")
-    pixels = pixels or bytes(brightness(x, y, width, height) for y in range(height) for x in range(width))
+    pixels = pixels or slope(width, height)
     return b"II*\0" + struct.pack("<I", 8) + directory + struct.pack("<I", 0) + data + pixels
 
 

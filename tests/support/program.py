@@ -1,5 +1,6 @@
 """Runs the program under test and checks its output."""
 
+import functools
 import os
 import pathlib
 import re
@@ -72,6 +73,7 @@ def _limiter(file_size_limit):
     return limit
 
 
+@functools.cache
 def subcommands():
     """The subcommands that the program offers, from its help."""
     text = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout
