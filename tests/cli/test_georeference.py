@@ -31,17 +31,20 @@ class GeoreferenceTest(ProgramTest):
     def info(self, name):
         return json.loads(self.assert_done("info", name, "--json").stdout)
 
-    def options_for(self, name):
+    @staticmethod
+    def options_in(info):
         """Options that `info` says must be given with the picture."""
-        words = shlex.split(self.info(name)["command"])
-        return words[3:]
+        return shlex.split(info["command"])[3:]
+
+    def options_for(self, name):
+        return self.options_in(self.info(name))
 
     def assert_drawn_as_gdal_says(self, name, crs, *cut_options, source_crs=()):
         """Cut, and each corner of the tile set's bounds is where gdaltransform has it."""
         info = self.info(name)
         self.assertTrue(info["shown"], info)
         width, height = info["width_px"], info["height_px"]
-        self.assert_done("cut", name, "-o", "out.gpkg", "--tile-size", "16", *self.options_for(name), *cut_options)
+        self.assert_done("cut", name, "-o", "out.gpkg", "--tile-size", "16", *self.options_in(info), *cut_options)
         bounds = json.loads(self.assert_done("info", "out.gpkg", "--json").stdout)["bounds"]
         west, south, east, north = bounds
         (lon0, lat0), (lon1, lat1) = places(self.folder / name, [(0, 0), (width, height)], crs, source_crs)
@@ -211,9 +214,9 @@ class Refused(GeoreferenceTest):
         for word, value in words.items():
             command = command.replace(word.replace("_", ":"), value)
         self.run_command(command)
-        made = shlex.split(command)[-1]
-        self.assertTrue(self.info(made)["shown"], self.info(made))
-        return made
+        info = self.info(shlex.split(command)[-1])
+        self.assertTrue(info["shown"], info)
+        return info
 
     def test_ground_control_points(self):
         corners = []
@@ -235,9 +238,9 @@ class Refused(GeoreferenceTest):
                 self.picture(picture, "-of", {"png": "PNG", "jpg": "JPEG", "tif": "GTiff"}[picture[-3:]], size=(64, 32))
                 self.write(world, b"10000\n0\n0\n-10000\n505000\n4645000\n")
                 message = self.assert_refused(picture, world, "no coordinate system", "--crs EPSG:32633")
-                made = self.assert_cured(message, EPSG_CODE="EPSG:32633")
-                self.assertEqual(self.info(made)["crs_code"] if "crs_code" in self.info(made) else
-                                 self.info(made)["georeference"]["crs"]["code"], "EPSG:32633")
+                info = self.assert_cured(message, EPSG_CODE="EPSG:32633")
+                self.assertEqual(info["crs_code"] if "crs_code" in info else info["georeference"]["crs"]["code"],
+                                 "EPSG:32633")
 
     def test_world_file_that_contradicts(self):
         self.picture("in.tif", "-a_srs", "EPSG:4326", "-a_ullr", 10, 50, 26, 42, size=(64, 32))

@@ -246,6 +246,7 @@ class Viewer:
     def close(self):
         if self.pixels:
             self.pixels.close()
+            self.pixels = None
         if self.program.poll() is None:
             self.program.terminate()
         self.program.wait()
