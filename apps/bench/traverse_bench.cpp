@@ -14,7 +14,7 @@
 #include "apps/bench/shots.h"
 #include "apps/bench/sources/counting_source.h"
 #include "apps/bench/sources/endless_source.h"
-#include "apps/preload/flight_tiles.h"
+#include "apps/flight/flight_file.h"
 #include "apps/process/data_dir.h"
 #include "geo/body.h"
 
@@ -36,18 +36,20 @@ FlightEffort effort_of(Effort effort) {
 }
 
 /// Spreads cameras evenly between the positions of each flight.
-std::vector<Camera> cameras_of(const std::vector<std::vector<Camera>>& ways, int frames) {
+std::vector<Camera> cameras_of(const std::vector<FlightPath>& paths, int frames) {
   std::size_t parts = 0;
-  for (const std::vector<Camera>& way : ways) parts += way.size() - 1;
+  for (const FlightPath& path : paths) parts += path.times().size() - 1;
   const int frames_of_part = std::max(1, frames / static_cast<int>(std::max<std::size_t>(parts, 1)));
   std::vector<Camera> cameras;
-  for (const std::vector<Camera>& way : ways) {
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+  for (const FlightPath& path : paths) {
+    const std::vector<double>& times = path.times();
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+      const Camera from = path.at(times[i]).camera, to = path.at(times[i + 1]).camera;
       for (int k = 0; k < frames_of_part; ++k) {
-        cameras.push_back(camera_between(way[i], way[i + 1], static_cast<double>(k) / frames_of_part));
+        cameras.push_back(camera_between(from, to, static_cast<double>(k) / frames_of_part));
       }
     }
-    cameras.push_back(way.back());
+    cameras.push_back(path.at(path.duration_s()).camera);
   }
   return cameras;
 }
@@ -88,9 +90,9 @@ class Flyer {
 
   void fly(const std::string& name, Report& report) {
     options_.progress(name);
-    const auto ways = read_flight(data_file("flights/" + name + ".geojson"));
-    if (!ways) throw std::runtime_error(ways.error().message);
-    const std::vector<Camera> cameras = cameras_of(*ways, effort_.frames);
+    const auto paths = read_flight(data_file("flights/" + name + ".geojson"));
+    if (!paths) throw std::runtime_error(paths.error().message);
+    const std::vector<Camera> cameras = cameras_of(*paths, effort_.frames);
     auto source = std::make_shared<CountingSource>(make_endless_source());
     const std::unique_ptr<Globe> globe = open(source, false);
     const std::unique_ptr<Globe> patient = open(std::make_shared<CountingSource>(make_endless_source()), true);

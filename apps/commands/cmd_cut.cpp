@@ -63,7 +63,7 @@ Result<std::pair<int, int>> parse_pair(const std::string& text, char between, co
   return Error{fmt::format("{} is not {}", in_quotes(text), wanted)};
 }
 
-Result<CutShard> parse_shard(const std::string& text) {
+Result<CutShard> parse_cut_shard(const std::string& text) {
   const auto pair = parse_pair(text, '/', "I/N, as 3/8");
   if (!pair) return pair.error();
   if (pair->first > pair->second) return Error{fmt::format("{}: I is at most N", in_quotes(text))};
@@ -216,7 +216,7 @@ void add_work_options(CLI::App& app, CutCommand& command) {
       ->check(whole_number_in(0, 256))
       ->capture_default_str();
   CLI::Option* shard = app.add_option_function<std::string>(
-      "--shard", [&cut](const std::string& text) { cut.shard = parsed_or_throw("--shard", parse_shard(text)); },
+      "--shard", [&cut](const std::string& text) { cut.shard = parsed_or_throw("--shard", parse_cut_shard(text)); },
       "Cut only part I of N into OUT.shard-I-of-N, for a later --join");
   shard->type_name("I/N");
   app.add_flag("--join", cut.join, "Write the output from all shards, then remove the shards")->excludes(shard);

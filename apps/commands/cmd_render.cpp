@@ -1,18 +1,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/shard_option.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/process/write_file.h"
 #include "apps/process/write_picture.h"
 #include "apps/program/commands.h"
+#include "apps/program/film.h"
 #include "apps/program/scene_picture.h"
+#include "base/hash_mix.h"
 
 namespace terrella {
 namespace {
@@ -124,15 +129,77 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
                "Draw a colour bar with units for each raster of numbers, and the classes of --object-style");
   sub.add_flag("--credits", command.credits, "Write the sources of imagery and map into the upper right corner");
   sub.add_flag("--json", command.json, "Print the result as one JSON object");
-  sub.footer("Example:\n  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60");
+  sub.footer(
+      "Examples:\n"
+      "  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60\n"
+      "  terrella render -o frames/%05d.png --size 1920x1080 --flight alps.geojson --fps 25");
   return sub;
 }
 
+namespace {
+
+/// Hashes of the options that decide the pixels of a film, by name. A file counts with its size and time.
+FilmFacts facts_of(const CLI::App& sub) {
+  constexpr std::array kOthers = {"--output", "--flight",  "--shard",      "--force",  "--json",
+                                  "--cache",  "--timeout", "--cache-size", "--header", "--offline"};
+  FilmFacts facts;
+  for (const CLI::Option* option : sub.get_options()) {
+    if (option->count() == 0 || std::ranges::find(kOthers, option->get_name()) != kOthers.end()) continue;
+    std::string values;
+    for (const std::string& value : option->results()) {
+      values += value + '\n';
+      std::error_code failed;
+      if (!std::filesystem::is_regular_file(value, failed)) continue;
+      values += fmt::format("{} {}\n", std::filesystem::file_size(value, failed),
+                            std::filesystem::last_write_time(value, failed).time_since_epoch().count());
+    }
+    facts[option->get_name()] = fmt::format("{:016x}", name_hash(values));
+  }
+  return facts;
+}
+
+void add_film_options(CLI::App& sub, FilmCommand& film) {
+  CLI::Option* flight =
+      sub.add_option(
+             "--flight", film.flight,
+             "Render a film of a flight: a GeoJSON LineString of eye positions and heights. -o names the frames "
+             "as frames/%05d.png, or a film.mp4, which takes the program ffmpeg. The same command goes on after "
+             "a kill, except with film.mp4")
+          ->type_name("F.geojson");
+  sub.add_option("--fps", film.fps, "Set the frames per second of --flight")
+      ->check(number_in(1.0, 240.0))
+      ->needs(flight)
+      ->capture_default_str();
+  sub.add_option_function<std::string>(
+         "--shard", [&film](const std::string& text) { film.shard = parsed_or_throw("--shard", parse_shard(text)); },
+         "Render only part I of N of the frames of --flight: every Nth one, for several machines")
+      ->needs(flight)
+      ->type_name("I/N");
+  sub.add_flag("--force", film.force, "Replace the frames of another film, and render all frames of --flight anew")
+      ->needs(flight);
+}
+
+/// Renders a film or a picture, as the command says.
+int run_render_or_film(const CLI::App& sub, FilmCommand& film) {
+  if (film.flight.empty()) return run_render(film.render, nullptr);
+  if (sub.count("--camera") > 0) {
+    throw CLI::ValidationError("render", "--flight and --camera: the flight sets the view; leave out --camera");
+  }
+  if (const Status together = check_together(film); !together) {
+    throw CLI::ValidationError("--output", together.error().message);
+  }
+  film.facts = facts_of(sub);
+  return run_film(film);
+}
+
+}  // namespace
+
 void add_render_command(CLI::App& app, int& exit_code) {
-  const auto command = std::make_shared<RenderCommand>();
-  CLI::App& sub = add_render_options(app, *command);
+  const auto film = std::make_shared<FilmCommand>();
+  CLI::App& sub = add_render_options(app, film->render);
+  add_film_options(sub, *film);
   sub.get_option("--output")->required();
-  sub.callback([command, &exit_code] { exit_code = run_render(*command, nullptr); });
+  sub.callback([film, &sub, &exit_code] { exit_code = run_render_or_film(sub, *film); });
 }
 
 }  // namespace terrella

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
+#include <memory>
 #include <unordered_set>
 
 #include "geo/ellipsoid.h"
@@ -18,10 +17,9 @@ constexpr int kSegments = 24;                  // segments per patch side, as in
 constexpr double kStepOfPicture = 0.05;        // fraction of the picture's visible width
 constexpr double kStepOfTile = 0.02;           // smallest step, as a fraction of a finest tile's side
 constexpr double kStepOfLogHeight = 0.05;      // 1/13 of the way to the next level
-constexpr double kLowest_m = 0.1;              // heights are interpolated by their logarithm
+constexpr double kLowest_m = 0.1;              // of the eye
+constexpr double kShortestStep = 1e-7;         // as a fraction of the flight
 constexpr std::size_t kMostPatches = 100'000;  // kept from one view to the next
-
-double log_height(const Camera& camera) { return std::log(std::max(camera.eye.height_m, kLowest_m)); }
 
 /// Collects the tiles of many views.
 class Gatherer {
@@ -59,44 +57,40 @@ class Gatherer {
   std::unordered_set<TileId, TileIdHash> tiles_;
 };
 
-/// Number of steps for a whole segment, if all of the segment were like the part around a camera.
-double steps_at(const Camera& camera, const Camera& a, const Camera& b, const FlightView& view) {
-  const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
-  const glm::dvec3 to = Ellipsoid::normal(b.eye.lat, b.eye.lon).xyz;
+/// Number of steps between two views that lie near each other.
+double steps_between(const Camera& a, const Camera& b, const FlightView& view) {
   const double radius_m = view.body.ellipsoid.a_m();
-  const double way_m = radius_m * std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
-  const double side_m = 2.0 * std::max(camera.eye.height_m, kLowest_m) * std::tan(0.5 * camera.fov_y.rad());
+  const double way_m = radius_m * angle_between(eye_normal(a), eye_normal(b)).rad();
+  const double side_m = 2.0 * std::max(a.eye.height_m, kLowest_m) * std::tan(0.5 * a.fov_y.rad());
   const double tile_m = Angle::degrees(tile_span_deg(view.grid, view.grid.max_level)).rad() * radius_m;
   const double step_m = std::max(kStepOfPicture * std::min(side_m, radius_m), kStepOfTile * tile_m);
-  return way_m / step_m + std::abs(log_height(a) - log_height(b)) / kStepOfLogHeight;
+  const double turn = std::abs((b.heading - a.heading).rad()) + std::abs((b.pitch - a.pitch).rad());
+  return way_m / step_m + std::abs(log_height(a) - log_height(b)) / kStepOfLogHeight +
+         turn / (kStepOfPicture * a.fov_y.rad());
+}
+
+/// Looks from a keyframe on, up to the next one.
+void look_along(const FlightPath& path, std::size_t section, const FlightView& view, Gatherer& gatherer) {
+  const double end_s = path.times()[section + 1];
+  double step_s = end_s - path.times()[section];
+  for (double time_s = path.times()[section]; time_s < end_s;) {
+    const Camera camera = path.at(time_s).camera;
+    gatherer.look(camera);
+    const double shortest_s = kShortestStep * path.duration_s();
+    step_s = std::max(std::min(step_s, end_s - time_s), shortest_s);
+    while (step_s > shortest_s && steps_between(camera, path.at(time_s + step_s).camera, view) > 1.0) step_s *= 0.5;
+    time_s += step_s;
+    step_s *= 2.0;
+  }
 }
 
 }  // namespace
 
-Camera camera_between(const Camera& a, const Camera& b, double t) {
-  const glm::dvec3 from = Ellipsoid::normal(a.eye.lat, a.eye.lon).xyz;
-  const glm::dvec3 to = Ellipsoid::normal(b.eye.lat, b.eye.lon).xyz;
-  const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
-  Camera camera = a;
-  if (std::sin(angle) > 1e-12) {
-    const glm::dvec3 n = (std::sin((1.0 - t) * angle) * from + std::sin(t * angle) * to) / std::sin(angle);
-    camera.eye = Ellipsoid::lat_lon(EcefDir{glm::normalize(n)});
-  }
-  camera.eye.height_m = std::exp((1.0 - t) * log_height(a) + t * log_height(b));
-  return camera;
-}
-
-std::vector<TileId> tiles_along(const std::vector<std::vector<Camera>>& ways, const FlightView& view) {
+std::vector<TileId> tiles_along(const std::vector<FlightPath>& paths, const FlightView& view) {
   Gatherer gatherer(view);
-  for (const std::vector<Camera>& way : ways) {
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-      for (double t = 0.0; t < 1.0;) {
-        const Camera camera = camera_between(way[i], way[i + 1], t);
-        gatherer.look(camera);
-        t += 1.0 / std::max(1.0, steps_at(camera, way[i], way[i + 1], view));
-      }
-    }
-    gatherer.look(way.back());
+  for (const FlightPath& path : paths) {
+    for (std::size_t i = 0; i + 1 < path.times().size(); ++i) look_along(path, i, view, gatherer);
+    gatherer.look(path.at(path.duration_s()).camera);
   }
   return gatherer.take();
 }

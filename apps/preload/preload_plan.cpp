@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/flight/flight_file.h"
 #include "apps/preload/flight_tiles.h"
 #include "geo/body.h"
 #include "streaming/preload/geojson_region.h"
@@ -48,8 +49,8 @@ Result<Region> region_of(const PreloadCommand& command) {
 }
 
 /// For Web Mercator, returns the source tiles of the drawn tiles.
-Result<std::vector<TileId>> tiles_flown_over(const std::vector<std::vector<Camera>>& path, const Body& body,
-                                             Viewport size, const TileGrid& grid) {
+Result<std::vector<TileId>> tiles_flown_over(const std::vector<FlightPath>& path, const Body& body, Viewport size,
+                                             const TileGrid& grid) {
   if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});
   const auto stored =
       stored_tiles_of(grid, tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size}));

@@ -285,6 +285,20 @@ void ScenePicture::Parts::check_fills() {
   }
 }
 
+Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun) {
+  SceneOptions& said = parts_->command.scene;
+  if (surface_alpha && *surface_alpha != said.surface.alpha) {
+    said.surface.alpha = *surface_alpha;
+    globe().set_surface(said.surface);
+  }
+  if (sun && sun != said.time) {
+    if (Status set = globe().set_time(sun); !set) return set;
+    said.time = sun;
+  }
+  if (!parts_->scene.heights || !said.elevation_shown) return Done{};
+  return globe().set_elevation(parts_->scene.heights);
+}
+
 Result<Rendered> ScenePicture::draw(const Camera& camera) {
   Parts& own = *parts_;
   const Viewport size = own.command.scene.size;

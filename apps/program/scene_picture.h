@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ class ScenePicture {
   [[nodiscard]] Status set_shown(LayerId layer, std::vector<ShownWhen> features);
   [[nodiscard]] Camera first_camera() const;   ///< --camera, or default_camera()
   [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
+  /// Begins a frame of a film, with its own opacity of the surface and time of the Sun; none: as before. Forgets the
+  /// heights that earlier frames loaded, because finer ones than a view needs would change its ground.
+  [[nodiscard]] Status begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun);
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).
   [[nodiscard]] Result<Rendered> draw(const Camera& camera);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/flight/flight_path.h"
+#include "base/result.h"
+
+namespace terrella {
+
+/// Reads flights from GeoJSON: LineStrings or Features of LineStrings. The third coordinates are heights over the
+/// ellipsoid in metres. Each Feature is a separate flight. A Feature's properties set
+/// - `pitch`, `heading` and `fov` in degrees, as in --camera. By default the eye looks straight down, with north up and
+///   a 40° field of view;
+/// - `pitches`, `headings`, `opacities` (as --surface-alpha) and `times` (as --time), arrays with a value for each
+///   position; `time`, one value for all;
+/// - `times_s`, seconds for each position, ascending; or `duration_s`, the seconds from the first position to the last.
+///   By default the pace is even_pace().
+/// The error begins with `where`. thread: any
+[[nodiscard]] Result<std::vector<FlightPath>> parse_flight(std::string_view text, const std::string& where);
+[[nodiscard]] Result<std::vector<FlightPath>> read_flight(const std::filesystem::path& path);
+
+}  // namespace terrella
