@@ -24,6 +24,7 @@
 #include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/map_painter.h"
 #include "apps/viewer/tools/picture_ui.h"
+#include "globe/experiments.h"
 #include "render/gl/offscreen.h"
 
 namespace terrella {
@@ -61,16 +62,26 @@ Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& m
 }
 
 /// Renders until settled or until the deadline, and checks for signals a few times a second.
-void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline) {
+/// With `heights_first`, imagery waits until all heights are there.
+void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline,
+                    bool heights_first) {
   constexpr std::chrono::milliseconds kBetweenLooks{200};
+  const auto begun = std::chrono::steady_clock::now();
+  const auto heights_until = begun + (deadline - begun) / 2;
   while (!StopSignals::came() && std::chrono::steady_clock::now() < deadline) {
     const auto until = std::min(deadline, std::chrono::steady_clock::now() + kBetweenLooks);
-    if (globe.render_until_settled(framebuffer, size, until) || !globe.status()) return;
+    if (heights_first) {
+      const bool there = Experiments::settle_heights(globe, framebuffer, size, until);
+      heights_first = !there && globe.status() && until < heights_until;
+    } else if (globe.render_until_settled(framebuffer, size, until) || !globe.status()) {
+      return;
+    }
   }
 }
 
 /// Renders until all tiles are loaded or time is up. The eye rises with the ground as heights arrive.
-void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer) {
+void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted, unsigned framebuffer,
+                bool heights_first) {
   constexpr int kMostMoves = 4;  // finer heights move the ground less and less
   const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
       std::chrono::duration<double>(command.scene.base.timeout_s));
@@ -79,7 +90,7 @@ void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted
   Camera camera = out_of_ground(wanted, 0.0, may_be_under);
   for (int move = 0; move < kMostMoves; ++move) {
     globe.set_camera(camera);
-    wait_for_tiles(globe, framebuffer, command.scene.size, deadline);
+    wait_for_tiles(globe, framebuffer, command.scene.size, deadline, heights_first);
     camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
     if (camera.eye.height_m == globe.camera().eye.height_m) break;
   }
@@ -142,6 +153,7 @@ struct ScenePicture::Parts {
   std::unique_ptr<MapPainter> map{};
   OpenedScene scene{};
   bool checked_fills = false;
+  bool is_film = false;  ///< begin_frame() was called
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
   std::map<LayerId, PointClusters> clusters{};
@@ -287,6 +299,8 @@ void ScenePicture::Parts::check_fills() {
 
 Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun) {
   SceneOptions& said = parts_->command.scene;
+  parts_->is_film = true;
+  Experiments::forget_imagery(globe());
   if (surface_alpha && *surface_alpha != said.surface.alpha) {
     said.surface.alpha = *surface_alpha;
     globe().set_surface(said.surface);
@@ -306,7 +320,7 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   Globe& globe = *own.scene.globe;
   globe.set_camera(camera);
   if (const Status followed = own.follow_view(); !followed) return followed.error();
-  render_all(globe, own.command, camera, framebuffer);
+  render_all(globe, own.command, camera, framebuffer, own.is_film);
   const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
   if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
   if (globe.needs_frame(framebuffer, size)) globe.render(framebuffer, size);

@@ -59,7 +59,7 @@ class ScenePicture {
   [[nodiscard]] Camera first_camera() const;   ///< --camera, or default_camera()
   [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
   /// Begins a frame of a film, with its own opacity of the surface and time of the Sun; none: as before. Forgets the
-  /// heights that earlier frames loaded, because finer ones than a view needs would change its ground.
+  /// tiles that earlier frames loaded, so that draw() gives the same pixels whatever they were (globe/experiments.h).
   [[nodiscard]] Status begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun);
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 
 #include "geo/cube_sphere.h"
@@ -25,6 +26,15 @@ struct Experiments {
 
   /// Returns the settings of a globe. A change holds from the next frame on.
   [[nodiscard]] static Experiments& of(Globe& globe);
+
+  // For films. A settled picture depends on the tiles of earlier views: heights are taken from the finest loaded tile,
+  // and a texture continues in the loaded neighbours of its tile. These two make a picture depend on its view alone.
+  /// Forgets all tiles of imagery, as if the layers were new. Globe::set_elevation() does the same for heights.
+  static void forget_imagery(Globe& globe);
+  /// Waits until the heights of the main view are loaded, and draws nothing. Imagery that only coarser heights want is
+  /// thus not requested. False at the deadline, or if Globe::status() is an error.
+  static bool settle_heights(Globe& globe, unsigned framebuffer, Viewport viewport,
+                             std::chrono::steady_clock::time_point deadline);
 };
 
 }  // namespace terrella

@@ -198,6 +198,19 @@ Experiments& Experiments::of(Globe& globe) {
   return globe.impl_->experiments;
 }
 
+void Experiments::forget_imagery(Globe& globe) {
+  Globe::Impl& own = *globe.impl_;
+  if (!own.may_call("Experiments::forget_imagery")) return;
+  for (const auto& layer : own.images) layer->forget_tiles();
+  own.missing.clear();
+  own.changed = true;
+}
+
+bool Experiments::settle_heights(Globe& globe, unsigned framebuffer, Viewport viewport,
+                                 std::chrono::steady_clock::time_point deadline) {
+  return globe.impl_->first().settle_heights("Experiments::settle_heights", framebuffer, viewport, deadline);
+}
+
 // The calls of the main view.
 
 FrameStats Globe::render(unsigned framebuffer, Viewport viewport, glm::ivec2 corner_px) {

@@ -190,13 +190,15 @@ void GlobeView::Impl::count() {
 }
 
 // Chooses the patches and tiles that the frame draws, and requests missing tiles.
-void GlobeView::Impl::plan(Viewport viewport) {
+void GlobeView::Impl::plan(Viewport viewport, Draw when) {
   const auto start = FrameClock::now();
   look(viewport);
   last_plan = plan_frame(view, snapshot(), selection_options(), std::move(last_plan));
   execute(last_plan);
   stats.selection_ms = std::chrono::duration<double, std::milli>(FrameClock::now() - start).count();
-  for (LayerView* layer : planned) layer->ask();
+  if (when != Draw::never) {
+    for (LayerView* layer : planned) layer->ask();
+  }
   plan_ground();
   if (!globe->heights) return;
   stats.heights_pending = globe->heights->ask(viewers());
@@ -262,7 +264,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   stats = {};
   frame = ++globe->frame;
   if (viewport != drawn) restore_detail();
-  still = when == Draw::when_settled || std::pair(camera, globe->options.time) == drawn_at;
+  still = when != Draw::always || std::pair(camera, globe->options.time) == drawn_at;
   drawn_at = {camera, globe->options.time};
   changed = is_behind = false;
   drawn = viewport;
@@ -270,13 +272,16 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   stats.uploaded_bytes = globe->take_finished();
   stats.objects_cut = std::exchange(globe->objects_cut, 0);
   stack_layers();
-  plan(viewport);
+  plan(viewport, when);
   status = Done{};
   const FrameInput input = frame_input(viewport, corner_px);
   // Programs are made while tiles are on their way.
-  if (when == Draw::when_settled && !settled()) {
+  if (when == Draw::never || (when == Draw::when_settled && !settled())) {
     status = globe->renderer->prepare(input, memory, framebuffer);
   } else {
+    if (when == Draw::when_settled) {
+      for (LayerView* layer : stack) layer->layer().tiles().join_squeezed_again();
+    }
     draw_picture(framebuffer, input);
   }
   for (LayerView* layer : planned) layer->layer().end_frame(*layer, frame);
@@ -286,9 +291,12 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   return stats;
 }
 
+bool GlobeView::Impl::has_settled_heights() const {
+  return stats.heights_pending == 0 && !stats.heights_arrived && stats.relief_put_off == 0;
+}
+
 bool GlobeView::Impl::settled() const {
-  if (frame == 0 || !status || is_behind) return false;
-  if (stats.heights_pending > 0 || stats.heights_arrived || stats.relief_put_off > 0 || stats.air_put_off) return false;
+  if (frame == 0 || !status || is_behind || !has_settled_heights() || stats.air_put_off) return false;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::waits) || !ground.wants.empty()) return false;
   return std::ranges::all_of(planned, [](const LayerView* layer) { return layer->settled(); });
 }

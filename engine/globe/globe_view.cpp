@@ -115,6 +115,17 @@ bool GlobeView::Impl::render_until_settled(const char* call, unsigned framebuffe
   }
 }
 
+bool GlobeView::Impl::settle_heights(const char* call, unsigned framebuffer, Viewport viewport,
+                                     Clock::time_point deadline) {
+  while (may_call(call) && Clock::now() < deadline) {
+    render(call, framebuffer, viewport, {0, 0}, Draw::never);
+    if (!status || has_settled_heights()) return bool(status);
+    ArrivalBell& bell = *globe->bell;
+    while (!needs_frame() && Clock::now() < deadline) bell.wait_until(std::min(deadline, Clock::now() + kLook));
+  }
+  return false;
+}
+
 Status GlobeView::Impl::copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px) {
   const auto scope = may_draw(call);
   if (!scope) return scope.error();

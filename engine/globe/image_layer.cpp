@@ -65,6 +65,13 @@ void ImageLayer::invalidate(const std::optional<TileId>& tile) {
   tile ? stream_->reread(*tile) : start_stream();
 }
 
+void ImageLayer::forget_tiles() {
+  tiles_.forget_tiles();
+  has_transparency_ = false;
+  start_stream();
+  restore_detail();
+}
+
 std::unique_ptr<ImageLayer> ImageLayer::make_plain(const LayerSetup& setup) {
   auto plain = std::make_unique<ImageLayer>(LayerId::none, setup, nullptr, ImageLook{}, 0);
   // The tiles of the plain colour are all resident, and empty.

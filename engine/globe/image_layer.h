@@ -51,6 +51,8 @@ class ImageLayer {
   /// See Globe::invalidate(). What is in flight of the tile, or of all, is dropped: it may have been read before the
   /// change.
   void invalidate(const std::optional<TileId>& tile);
+  /// Forgets all tiles and what is in flight, as if the layer were new. Not for the plain layer.
+  void forget_tiles();
   [[nodiscard]] bool was_invalidated() const { return was_invalidated_; }
   void set_gpu_bytes(std::size_t bytes) { tiles_.set_budget(bytes); }
   /// True if a frame draws this layer. False for a night layer if the globe has no night.

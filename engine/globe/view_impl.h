@@ -21,8 +21,9 @@ namespace terrella {
 /// Restores the GL state of the caller when a call ends; null if the caller wants no state restored.
 using GlScope = std::unique_ptr<GlState>;
 
-/// Says when a frame draws its picture, after it has taken and requested tiles.
-enum class Draw { always, when_settled };
+/// Says when a frame draws its picture, after it has taken and requested tiles. A frame that never does requests
+/// heights only.
+enum class Draw { always, when_settled, never };
 
 /// The state of a GlobeView. Functions of Globe and GlobeView call may_call() or may_draw() first. `call` is the name
 /// of the call for messages. thread: main
@@ -47,11 +48,14 @@ struct GlobeView::Impl {
                     Draw when = Draw::always);
   bool render_until_settled(const char* call, unsigned framebuffer, Viewport viewport,
                             std::chrono::steady_clock::time_point deadline);
+  bool settle_heights(const char* call, unsigned framebuffer, Viewport viewport,
+                      std::chrono::steady_clock::time_point deadline);
   Status copy_depth(const char* call, unsigned framebuffer, glm::ivec2 corner_px);
   [[nodiscard]] unsigned depth_texture() const { return memory.has_picture() ? memory.targets->depth() : 0; }
   void set_on_draw(std::function<void(DrawStage, const FrameMatrices&)> draw);
   [[nodiscard]] const Status& last_status(const char* call) const;
   [[nodiscard]] bool settled() const;
+  [[nodiscard]] bool has_settled_heights() const;
   [[nodiscard]] bool needs_frame() const;
   [[nodiscard]] bool needs_frame(unsigned framebuffer, Viewport viewport) const;
   [[nodiscard]] std::vector<std::string> attributions() const;
@@ -71,7 +75,7 @@ struct GlobeView::Impl {
   [[nodiscard]] PatchSelectionOptions selection_options() const;
   [[nodiscard]] FrameSnapshot snapshot();
   void execute(FramePlan& plan);
-  void plan(Viewport viewport);
+  void plan(Viewport viewport, Draw when);
   void plan_ground();
   [[nodiscard]] double clearance_m() const;
   void count();

@@ -238,8 +238,14 @@ bool TileTextures::upload(const TileId& id, const std::vector<std::vector<std::u
   entry.state = TileState::resident;
   entry.slot = slot;
   entry.last_drawn = frame;
+  joined_ = false;
   join_gutters(id);
   return true;
+}
+
+void TileTextures::forget_tiles() {
+  residency_.entries().clear();
+  used_ = 1;
 }
 
 double TileTextures::number_at(const TileId& id, int x, int y) const {
@@ -265,12 +271,28 @@ void TileTextures::join_gutters(const TileId& id) {
   for (int dy = -1; dy <= 1; ++dy) {
     const std::int64_t y = id.y + dy;
     if (y < 0 || y >= rows(grid_, id.level)) continue;
-    const int squeeze = squeeze_of_row(grid_, id.level, y);
-    if (squeeze == id.squeeze || id.squeeze == 0) join_row(id, dy);
-    if (squeeze == id.squeeze + 1) {
-      join_squeezed({id.level, id.x >> 1, y, squeeze}, id, -dy);
-    } else if (squeeze == id.squeeze - 1) {
-      for (const std::int64_t x : {2 * id.x, 2 * id.x + 1}) join_squeezed(id, {id.level, x, y, squeeze}, dy);
+    if (squeeze_of_row(grid_, id.level, y) == id.squeeze || id.squeeze == 0) join_row(id, dy);
+    join_squeezed_row(id, dy);
+  }
+}
+
+// Joins gutters with the neighbours in a row of the next squeeze.
+void TileTextures::join_squeezed_row(const TileId& id, int dy) {
+  const std::int64_t y = id.y + dy;
+  const int squeeze = squeeze_of_row(grid_, id.level, y);
+  if (squeeze == id.squeeze + 1) {
+    join_squeezed({id.level, id.x >> 1, y, squeeze}, id, -dy);
+  } else if (squeeze == id.squeeze - 1) {
+    for (const std::int64_t x : {2 * id.x, 2 * id.x + 1}) join_squeezed(id, {id.level, x, y, squeeze}, dy);
+  }
+}
+
+void TileTextures::join_squeezed_again() {
+  if (std::exchange(joined_, true) || !grid_.reduced) return;
+  for (const auto& [id, entry] : residency_.entries()) {
+    if (entry.state != TileState::resident) continue;
+    for (const int dy : {-1, 1}) {
+      if (id.y + dy >= 0 && id.y + dy < rows(grid_, id.level)) join_squeezed_row(id, dy);
     }
   }
 }

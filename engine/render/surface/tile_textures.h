@@ -50,6 +50,12 @@ class TileTextures {
   /// if there is no room.
   bool upload(const TileId& id, const std::vector<std::vector<std::uint8_t>>& mips, std::uint64_t frame);
 
+  /// Joins gutters of rows of different squeeze again if tiles have arrived since. Such gutters are averages that reach
+  /// into the gutters beside them, so they depend on the order of arrival.
+  void join_squeezed_again();
+  /// Forgets all tiles, as if none had been uploaded. Keeps the texture.
+  void forget_tiles();
+
   /// Reads back one texel of a resident tile of numbers, counted from the tile's north-west corner; waits for the GPU.
   /// NaN if it has no data.
   [[nodiscard]] double number_at(const TileId& id, int x, int y) const;
@@ -79,6 +85,7 @@ class TileTextures {
   [[nodiscard]] bool is_resident(const TileId& id) const;
   void join_gutters(const TileId& id);
   void join_row(const TileId& id, int dy);
+  void join_squeezed_row(const TileId& id, int dy);
   void join_squeezed(const TileId& wide, const TileId& narrow, int dy);
   void fill_gutter(const TileId& into, const TileId& from, int dx, int dy);
   void stretch_gutter(const TileId& into, const TileId& from, int dy, int half);
@@ -89,6 +96,7 @@ class TileTextures {
   int most_slots_;
   int slots_ = 0;  ///< slots of the array, at most most_slots_
   bool memory_refused_ = false;
+  bool joined_ = true;  ///< no tile has arrived since join_squeezed_again()
   int used_ = 1;
   Empty empty_ = Empty::plain_colour;
   gl::Texture texture_;
