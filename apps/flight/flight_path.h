@@ -11,7 +11,7 @@
 // thread: any, for all of this header
 namespace terrella {
 
-/// What a flight shows at a time.
+/// A view with what goes with it: a keyframe of a flight, or its state at a time.
 struct FlightMoment {
   Camera camera;
   std::optional<double> surface_alpha{};  ///< opacity of the surface, [0, 1]; none: as the scene has it
@@ -27,7 +27,7 @@ class FlightPath {
   /// A keyframe for each time, one at least. Times ascend, seconds. All keyframes have an opacity, or none; the same
   /// for `sun`.
   FlightPath(std::vector<double> times, const std::vector<FlightMoment>& keyframes);
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< of the keyframes
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< seconds at the keyframes
   [[nodiscard]] double duration_s() const { return times_.back(); }
   /// The moment at a time. Outside the keyframes' times it is that of the first or last keyframe.
   [[nodiscard]] FlightMoment at(double time_s) const;

@@ -17,7 +17,7 @@ constexpr int kSegments = 24;                  // segments per patch side, as in
 constexpr double kStepOfPicture = 0.05;        // fraction of the picture's visible width
 constexpr double kStepOfTile = 0.02;           // smallest step, as a fraction of a finest tile's side
 constexpr double kStepOfLogHeight = 0.05;      // 1/13 of the way to the next level
-constexpr double kLowest_m = 0.1;              // of the eye
+constexpr double kLowest_m = 0.1;              // lowest height of the eye
 constexpr double kShortestStep = 1e-7;         // as a fraction of the flight
 constexpr std::size_t kMostPatches = 100'000;  // kept from one view to the next
 

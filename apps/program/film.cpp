@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kMostNamedTiles = 16;
 
-/// What a film's frames have come to.
+/// Counts and messages of a film's frames.
 struct FilmTally {
   std::int64_t written = 0;
   std::int64_t kept = 0;  ///< frames of an earlier run
@@ -133,8 +133,6 @@ Status Film::render_frame(std::int64_t frame) {
 
 void Film::count(std::int64_t frame, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
-  fprintf(stderr, "F%ld patches %d tiles %d tri %ld draws %d footprint %f\n", frame, stats.patches, stats.tiles_wanted,
-          long(stats.triangles), stats.draw_calls, double(stats.gpu_bytes));
   tally_.tiles_missing += stats.tiles_missing + stats.tiles_pending;
   tally_.heights_missing += heights_without(stats);
   tally_.attributions.insert(rendered.attributions.begin(), rendered.attributions.end());

@@ -16,7 +16,7 @@ struct FilmCommand {
   double fps = 30.0;
   std::optional<Shard> shard;  ///< frames whose number leaves the rest `index` - 1 when divided by `count`
   bool force = false;          ///< replace frames of another film
-  FilmFacts facts;             ///< of the options
+  FilmFacts facts;             ///< hashes of the options
 };
 
 /// Checks combinations of options; an error means wrong usage.

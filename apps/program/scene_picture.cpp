@@ -301,6 +301,7 @@ Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optio
   SceneOptions& said = parts_->command.scene;
   parts_->is_film = true;
   Experiments::forget_imagery(globe());
+  if (parts_->map) parts_->map->forget_shown();
   if (surface_alpha && *surface_alpha != said.surface.alpha) {
     said.surface.alpha = *surface_alpha;
     globe().set_surface(said.surface);

@@ -286,7 +286,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   }
   for (LayerView* layer : planned) layer->layer().end_frame(*layer, frame);
   count();
-  take_heights();
+  if (when != Draw::never || (globe->heights && globe->heights->has_all())) take_heights();
   globe->put_in_place();
   return stats;
 }

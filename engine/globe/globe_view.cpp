@@ -120,8 +120,10 @@ bool GlobeView::Impl::settle_heights(const char* call, unsigned framebuffer, Vie
   while (may_call(call) && Clock::now() < deadline) {
     render(call, framebuffer, viewport, {0, 0}, Draw::never);
     if (!status || has_settled_heights()) return bool(status);
+    // Tiles that arrive one by one would make the ground, and with it the next tiles, depend on their order.
     ArrivalBell& bell = *globe->bell;
-    while (!needs_frame() && Clock::now() < deadline) bell.wait_until(std::min(deadline, Clock::now() + kLook));
+    const auto waits = [this] { return !globe->heights->has_all() || !needs_frame(); };
+    while (waits() && Clock::now() < deadline) bell.wait_until(std::min(deadline, Clock::now() + kLook));
   }
   return false;
 }

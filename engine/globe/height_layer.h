@@ -38,6 +38,11 @@ class HeightLayer {
   /// Requests the tiles that the viewers' patches want and that are not loaded. Returns the number of those that the
   /// first one wants.
   int ask(std::span<const Viewer> viewers);
+  /// True if no requested tile is on its way. Arrived tiles may wait.
+  [[nodiscard]] bool has_all() const {
+    const LoaderCounts counts = stream_.counts();
+    return counts.waiting + counts.running + counts.fetching == 0;
+  }
   /// See TileStream.
   [[nodiscard]] const StreamCounts& taken() const { return stream_.taken(); }
   [[nodiscard]] bool has_news(const StreamCounts& since, bool wants) const { return stream_.has_news(since, wants); }

@@ -77,6 +77,11 @@ std::vector<MapLabels::Side> MapLabels::sides(std::size_t name) const {
   return {Side::right, Side::left};
 }
 
+void MapLabels::forget_shown() {
+  std::ranges::fill(shown_, Side::hidden);
+  std::ranges::fill(wait_, std::uint8_t{0});
+}
+
 std::vector<ShownName> MapLabels::place(const View& view, const Ground& ground, const LabelPage& page) {
   LabelRoom room(view.viewport);
   for (const LabelBox& box : page.taken) {

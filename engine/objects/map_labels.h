@@ -49,6 +49,8 @@ class MapLabels {
   /// Returns the names of a picture, the highest rank first. A name faces the eye, and lies wholly in the picture and
   /// over the planet.
   [[nodiscard]] std::vector<ShownName> place(const View& view, const Ground& ground, const LabelPage& page);
+  /// Forgets the names of the last picture, which keep their places in the next one.
+  void forget_shown();
   /// Returns the pixel of a name's place on the ground; nothing if it is behind the eye.
   [[nodiscard]] std::optional<glm::dvec2> place_px(std::size_t name, const View& view, const Ground& ground) const;
 

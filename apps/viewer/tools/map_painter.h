@@ -25,6 +25,10 @@ class MapPainter {
   /// Draws the names around the boxes of `taken`, in units of the window, and returns the boxes of the names.
   std::vector<UiBox> draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
                                 const std::vector<UiBox>& taken);
+  /// See MapLabels::forget_shown().
+  void forget_shown() {
+    if (labels_) labels_->forget_shown();
+  }
   [[nodiscard]] const std::vector<std::string>& attributions() const { return attributions_; }
 
  private:
