@@ -29,7 +29,8 @@ struct Experiments {
 
   // For films. A settled picture depends on the tiles of earlier views: heights are taken from the finest loaded tile,
   // and a texture continues in the loaded neighbours of its tile. These two make a picture depend on its view alone.
-  /// Forgets all tiles of imagery, as if the layers were new. Globe::set_elevation() does the same for heights.
+  /// Forgets all tiles of imagery and pictures of the ground, as if the globe were new. Globe::set_elevation() does the
+  /// same for heights.
   static void forget_imagery(Globe& globe);
   /// Waits until the heights of the main view are loaded, and draws nothing. Imagery that only coarser heights want is
   /// thus not requested. False at the deadline, or if Globe::status() is an error.

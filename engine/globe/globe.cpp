@@ -203,6 +203,9 @@ void Experiments::forget_imagery(Globe& globe) {
   if (!own.may_call("Experiments::forget_imagery")) return;
   for (const auto& layer : own.images) layer->forget_tiles();
   own.missing.clear();
+  // Made anew from the objects by the next frame.
+  for (auto* view : own.views) view->ground = {};
+  own.ground_pictures.reset();
   own.changed = true;
 }
 
