@@ -5,8 +5,8 @@
 
 #include "apps/flight/eye_way.h"
 #include "apps/flight/monotone_curve.h"
+#include "base/utc_time.h"
 #include "geo/camera.h"
-#include "sky/utc_time.h"
 
 // thread: any, for all of this header
 namespace terrella {
