@@ -6,8 +6,8 @@
 
 #include "apps/open_scene/listed_features.h"
 #include "apps/open_scene/options/scene_options.h"
-#include "globe/globe.h"
 #include "globe/features/point_clusters.h"
+#include "globe/globe.h"
 #include "streaming/objects/classes/layer_features.h"
 #include "streaming/objects/geojson_objects.h"
 

@@ -9,9 +9,9 @@
 #include "apps/open_scene/options/scene_options.h"
 #include "base/result.h"
 #include "codecs/image.h"
-#include "globe/globe.h"
 #include "globe/features/point_clusters.h"
 #include "globe/features/shown_features.h"
+#include "globe/globe.h"
 
 namespace terrella {
 

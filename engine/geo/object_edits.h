@@ -21,9 +21,9 @@ struct ObjectMove {
 /// line that had been without colour.
 struct ObjectChange {
   ObjectId id = ObjectId::none;
-  std::optional<bool> visible = {};       ///< false: neither drawn nor picked
-  std::optional<bool> filtered = {};      ///< true: hidden as by `visible`, which stays (globe/features/shown_features.h)
-  std::optional<bool> selected = {};      ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
+  std::optional<bool> visible = {};   ///< false: neither drawn nor picked
+  std::optional<bool> filtered = {};  ///< true: hidden as by `visible`, which stays (globe/features/shown_features.h)
+  std::optional<bool> selected = {};  ///< true: drawn in the selection's colour (ObjectEdits), with its own alpha
   std::optional<ObjectColor> color = {};  ///< colour of points (tint of icons), lines, labels and strokes
   std::optional<ObjectColor> label = {};  ///< colour of labels, in place of `color`
   std::optional<ObjectColor> fill = {};   ///< fill colour of areas

@@ -12,8 +12,8 @@
 
 #include "apps/viewer/styles/style_choice.h"
 #include "base/result.h"
-#include "globe/globe.h"
 #include "globe/features/shown_features.h"
+#include "globe/globe.h"
 #include "streaming/objects/classes/layer_features.h"
 
 namespace terrella {
