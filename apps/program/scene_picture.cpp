@@ -252,7 +252,7 @@ void ScenePicture::forget_features(LayerId layer) {
 
 Status ScenePicture::set_shown(LayerId layer, std::vector<ShownWhen> features) {
   if (const auto earlier = parts_->shown.find(layer); earlier != parts_->shown.end()) {
-    const Status ended = earlier->second.end(globe());
+    Status ended = earlier->second.end(globe());
     parts_->shown.erase(earlier);
     if (!ended) return ended;
   }

@@ -13,6 +13,7 @@
 #include "base/number.h"
 #include "base/utc_time.h"
 #include "streaming/preload/geojson_text.h"
+#include "streaming/time/iso_time.h"
 
 namespace terrella {
 namespace {
@@ -136,7 +137,6 @@ class StyleReader {
   /// An instant of ISO 8601, also a year or a month alone, or with the slashes of GDAL; or milliseconds since 1970.
   std::optional<UtcTime> instant(const char* name) const {
     constexpr double kMost_ms = 2.5e14;  // the year 9892
-    constexpr std::size_t kYear = 4, kMonth = 7;
     const json* value = find(name);
     if (value == nullptr) return std::nullopt;
     if (value->is_number() && std::abs(value->get<double>()) < kMost_ms) {
@@ -144,11 +144,9 @@ class StyleReader {
     }
     std::string said = text(name);
     std::ranges::replace(said, '/', '-');
+    std::ranges::replace(said, ' ', 'T');
     if (said.ends_with("+00")) said.resize(said.size() - 3);
-    if (said.size() == kYear) said += "-01";
-    if (said.size() == kMonth) said += "-01";
-    const Result<UtcTime> time = parse_utc(said);
-    if (time) return *time;
+    if (const auto time = read_named_time(said)) return time->from;
     complain_(
         fmt::format("\"{}\" must be an instant in UTC, such as 2026-06-21T12:00Z, or milliseconds since 1970", name));
     return std::nullopt;
