@@ -85,7 +85,7 @@ int tell_of_missing(const RenderCommand& command, const Rendered& rendered, bool
   for (const std::string& note : {memory_note(command.scene.memory_mb, stats), font_note(stats)}) {
     if (!note.empty()) print_message("terrella render: {}\n", note);
   }
-  if (stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0) {
+  if (is_complete(stats)) {
     return all_objects && rasters_left_out() == 0 && stats.ground_left_out == 0 ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered.missing.size(), kMostNamed); ++k) {

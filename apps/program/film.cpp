@@ -35,10 +35,6 @@ struct FilmTally {
   bool whole_scene = true;  ///< false if objects, rasters or ground are left out
 };
 
-bool is_complete(const FrameStats& stats) {
-  return stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0;
-}
-
 void tell_incomplete(std::int64_t frame, const Rendered& rendered) {
   print_message("terrella render: frame {} lacks tiles, the first one that does:\n", frame);
   std::vector<MissingTile> missing = rendered.missing;

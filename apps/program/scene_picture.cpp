@@ -207,6 +207,10 @@ std::string name_of(const MissingTile& tile) {
 
 int heights_without(const FrameStats& stats) { return stats.heights_missing + stats.heights_pending; }
 
+bool is_complete(const FrameStats& stats) {
+  return stats.tiles_missing + stats.tiles_pending + heights_without(stats) == 0;
+}
+
 ScenePicture::ScenePicture(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 ScenePicture::~ScenePicture() = default;
 

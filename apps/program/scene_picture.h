@@ -37,6 +37,8 @@ struct Rendered {
 [[nodiscard]] std::string name_of(const MissingTile& tile);
 /// Height tiles that failed or had not arrived at the deadline. thread: any
 [[nodiscard]] int heights_without(const FrameStats& stats);
+/// True if no tile of imagery or heights failed or had not arrived. thread: any
+[[nodiscard]] bool is_complete(const FrameStats& stats);
 
 /// A globe as the options describe it, in an OpenGL context of its own, without display or GPU. thread: main, for every
 /// call and the destructor: the thread that opened it

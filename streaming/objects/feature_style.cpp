@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "streaming/objects/object_style.h"
@@ -51,10 +51,12 @@ ObjectStyle look_of(const FeatureParts& feature, const FeatureStyle& style, std:
   return read_object_style(applied(style, fields), [](const std::string&) {});
 }
 
-/// True for a JSON text that may say when something is shown.
-bool says_when(std::string_view text) {
-  constexpr std::array<std::string_view, 4> kNames = {"\"min-zoom\"", "\"max-zoom\"", "\"time-begin\"", "\"time-end\""};
-  return std::ranges::any_of(kNames, [text](std::string_view name) { return text.find(name) != text.npos; });
+/// Properties that say when a feature is shown.
+constexpr std::array<const char*, 4> kWhen = {"min-zoom", "max-zoom", "time-begin", "time-end"};
+
+/// True for a JSON text that may have one of them.
+bool may_say_when(const std::string& text) {
+  return std::ranges::any_of(kWhen, [&text](const char* name) { return text.find(name) != text.npos; });
 }
 
 }  // namespace
@@ -92,10 +94,12 @@ ObjectEdits restyled(std::span<const FeatureParts> features, const FeatureStyle&
 
 std::vector<ShownWhen> shown_when(std::span<const FeatureParts> features, const FeatureStyle& style,
                                   std::span<const double> values) {
-  const bool by_style = !style.is_none() && says_when(style.rules().properties.dump());
+  const bool by_style = !style.is_none() && std::ranges::any_of(kWhen, [&style](const char* name) {
+    return style.rules().properties.contains(name);
+  });
   std::vector<ShownWhen> found;
   for (const FeatureParts& feature : features) {
-    if (!by_style && !(feature.of.feature && says_when(feature.of.feature->properties))) continue;
+    if (!by_style && !(feature.of.feature && may_say_when(feature.of.feature->properties))) continue;
     ShownWhen when = look_of(feature, style, values).shown;
     when.id = feature.of.id;
     if (!is_always_shown(when)) found.push_back(when);

@@ -9,10 +9,10 @@
 namespace terrella {
 namespace {
 
-/// The first instant after all that a service lists, whose last text may name a whole day or month.
-UtcTime end_of(const TimeSteps& steps) {
-  const auto last = read_named_time(steps.text(steps.last()));
-  return last ? last->before : steps.last();
+/// The first instant after a series, whose last step may name a whole day or month.
+UtcTime end_of(const TimeSeries& series) {
+  const auto last = read_named_time(time_text(series.last, series.precision, series.has_z));
+  return last ? last->before : series.last;
 }
 
 /// True if a time is a value, or begins within a series. It need not be one of the instants of the series.
@@ -20,15 +20,15 @@ bool is_listed(const WmtsDimension& dimension, const TimeSteps& steps, const std
   if (std::ranges::find(dimension.values, time) != dimension.values.end()) return true;
   const auto wanted = read_named_time(time);
   return wanted && std::ranges::any_of(steps.series(), [&wanted](const TimeSeries& one) {
-           const auto last = read_named_time(time_text(one.last, one.precision, one.has_z));
-           return wanted->from >= one.first && last && wanted->from < last->before;
+           return wanted->from >= one.first && wanted->from < end_of(one);
          });
 }
 
 /// True within a day of the last instant, and for "current", "default" and the like.
 bool is_newest(const TimeSteps& steps, const std::string& time) {
   const auto chosen = read_named_time(time);
-  return !chosen || (!steps.empty() && chosen->before + std::chrono::days(1) > end_of(steps));
+  const auto reaches = [&chosen](const TimeSeries& one) { return chosen->before + std::chrono::days(1) > end_of(one); };
+  return !chosen || (!steps.empty() && std::ranges::all_of(steps.series(), reaches));
 }
 
 std::string list_of(const WmtsDimension& dimension) {
