@@ -11,6 +11,7 @@
 #include "streaming/remote/source_json.h"
 #include "streaming/remote/url_template.h"
 #include "streaming/remote/wmts/wmts.h"
+#include "streaming/sets/tileset_json.h"
 #include "streaming/warp/warp_source.h"
 #include "tiles/tile_range.h"
 #include "wmts_documents.h"
@@ -211,6 +212,9 @@ TEST(TileMatrixSets, LevelsOfAnyRatioKeepTheirPlaces) {
   ASSERT_EQ(set.info.square->levels.size(), 3U);
   EXPECT_EQ(set.info.square->levels[1].columns, 3);
   EXPECT_NEAR(set.info.square->levels[2].unit_per_px, 1000.0 / 2.56, 1e-9);
+  const auto kept = parse_tileset_json(to_tileset_json(set.info), "kept");
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept->square, set.info.square);
   const RasterInfo raster = raster_info_of(set.info);
   EXPECT_EQ(raster.levels[1].width_px, 3 * 256);
   EXPECT_EQ(raster.levels[2].to_crs.x0, 2420000.0);
