@@ -56,7 +56,7 @@ Result<std::vector<TileId>> tiles_flown_over(const std::vector<FlightPath>& path
                                              const TileSetInfo& info) {
   const auto grid = drawn_grid_of(info);
   if (!grid) return grid.error();
-  const auto drawn = tiles_along(path, {.body = body, .grid = *grid, .size = size});
+  auto drawn = tiles_along(path, {.body = body, .grid = *grid, .size = size});
   if (*grid == info.grid) return drawn;
   const auto stored = stored_tiles_of(info, drawn);
   if (!stored) return stored.error();

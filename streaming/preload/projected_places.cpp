@@ -40,38 +40,53 @@ struct Cells {
   bool has_north_pole, has_south_pole;
 };
 
+/// The rectangle around some places, with longitudes about that of the first.
+struct Around {
+  double west = 1e9, east = -1e9, south = 90.0, north = -90.0;
+  bool empty = true;
+  bool torn = false;  ///< a point has no place
+
+  void add(const CrsPoint& place) {
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) {
+      torn = true;
+      return;
+    }
+    const double near = empty ? std::remainder(place.x, 360.0) : west;
+    const double lon = near + std::remainder(place.x - near, 360.0);
+    empty = false;
+    west = std::min(west, lon);
+    east = std::max(east, lon);
+    south = std::min(south, place.y);
+    north = std::max(north, place.y);
+  }
+};
+
+Around around_cells(const std::vector<CrsPoint>& places, const Cells& cells) {
+  Around around;
+  for (int row = 2 * cells.first_row; row <= 2 * cells.last_row + 2; ++row) {
+    const CrsPoint* line = places.data() + std::ptrdiff_t{kPoints} * row;
+    for (int column = 2 * cells.first_column; column <= 2 * cells.last_column + 2; ++column) around.add(line[column]);
+  }
+  return around;
+}
+
 /// Adds the rectangle around some cells, in two parts if it goes over ±180°.
 void add_rect(const std::vector<CrsPoint>& places, const Cells& cells, std::vector<MapRect>& rects) {
-  double west = 1e9, east = -1e9, south = 90.0, north = -90.0;
-  std::optional<double> first;
-  bool torn = false;
-  for (int row = 2 * cells.first_row; row <= 2 * cells.last_row + 2; ++row) {
-    for (int column = 2 * cells.first_column; column <= 2 * cells.last_column + 2; ++column) {
-      const CrsPoint& place = places[static_cast<std::size_t>(row * kPoints + column)];
-      if (!std::isfinite(place.x) || !std::isfinite(place.y)) {
-        torn = true;
-        continue;
-      }
-      if (!first) first = std::remainder(place.x, 360.0);
-      const double lon = *first + std::remainder(place.x - *first, 360.0);
-      west = std::min(west, lon);
-      east = std::max(east, lon);
-      south = std::min(south, place.y);
-      north = std::max(north, place.y);
-    }
-  }
-  if (!first) return;
-  const double more_lon = kBulge * (east - west), more_lat = kBulge * (north - south);
-  const bool round = torn || cells.has_north_pole || cells.has_south_pole || east - west > 150.0;
-  MapRect rect{.west_deg = round ? -180.0 : west - more_lon,
-               .south_deg = torn || cells.has_south_pole ? -90.0 : std::max(-90.0, south - more_lat),
-               .east_deg = round ? 180.0 : east + more_lon,
-               .north_deg = torn || cells.has_north_pole ? 90.0 : std::min(90.0, north + more_lat)};
-  // A part beyond ±180° is on the other side.
-  for (const double turn : {-360.0, 0.0, 360.0}) {
+  constexpr double kWidest_deg = 150.0;  // between two places that are compared by the shorter way
+  const Around around = around_cells(places, cells);
+  if (around.empty) return;
+  const double width = around.east - around.west, more_lat = kBulge * (around.north - around.south);
+  const bool round = around.torn || cells.has_north_pole || cells.has_south_pole || width > kWidest_deg;
+  const bool to_south = around.torn || cells.has_south_pole, to_north = around.torn || cells.has_north_pole;
+  const MapRect rect{.west_deg = round ? -180.0 : around.west - kBulge * width,
+                     .south_deg = to_south ? -90.0 : std::max(-90.0, around.south - more_lat),
+                     .east_deg = round ? 180.0 : around.east + kBulge * width,
+                     .north_deg = to_north ? 90.0 : std::min(90.0, around.north + more_lat)};
+  constexpr std::array kOtherTurns_deg{-360.0, 0.0, 360.0};
+  for (const double turn_deg : kOtherTurns_deg) {
     MapRect part = rect;
-    part.west_deg = std::max(-180.0, rect.west_deg + turn);
-    part.east_deg = std::min(180.0, rect.east_deg + turn);
+    part.west_deg = std::max(-180.0, rect.west_deg + turn_deg);
+    part.east_deg = std::min(180.0, rect.east_deg + turn_deg);
     if (part.west_deg < part.east_deg && part.south_deg < part.north_deg) rects.push_back(part);
   }
 }

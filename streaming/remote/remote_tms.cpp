@@ -31,6 +31,7 @@ Result<RemoteTileSet> projected_tms(TmsDescription tms, const Url& url, const Re
   set.url = url;
   set.info = std::move(tms.info);
   set.shifts = south_rows_of(set.info);
+  set.level_names.reserve(tms.folder.size());
   for (auto& [level, name] : tms.folder) set.level_names.push_back(std::move(name));
   if (set.info.name.empty()) set.info.name = url.without_query();
   if (Status checked = check_options(options, where); !checked) return checked.error();

@@ -67,6 +67,7 @@ std::vector<double> numbers_of(const nlohmann::json& object, JsonFields& fields,
   if (!fields.has(field)) return numbers;
   const nlohmann::json& list = object[field];
   const bool fits = list.is_array() && !list.empty() && list.size() <= most;
+  if (fits) numbers.reserve(list.size());
   for (std::size_t i = 0; fits && i < list.size(); ++i) {
     if (list[i].is_number()) numbers.push_back(list[i].get<double>());
   }

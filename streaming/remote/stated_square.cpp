@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +24,7 @@ Result<std::vector<double>> stated_pixels(const StatedSquare& said, const Remote
   }
   const double side = std::max(said.extent->east - said.extent->west, said.extent->north - said.extent->south);
   std::vector<double> pixels;
+  pixels.reserve(static_cast<std::size_t>(*options.max_level) + 1);
   for (int level = 0; level <= *options.max_level; ++level) pixels.push_back(std::ldexp(side / tile_px, -level));
   return pixels;
 }
@@ -37,6 +39,7 @@ std::int64_t tiles_over_extent(double extent, double span) {
 WmtsMatrixSet matrices_of(const StatedSquare& said, const std::vector<double>& pixels, int tile_px, double unit_m) {
   WmtsMatrixSet set{.name = {}, .crs = said.crs, .matrices = {}, .box = {}};
   const CrsBounds& extent = *said.extent;
+  set.matrices.reserve(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const double span = pixels[i] * tile_px;
     set.matrices.push_back({.name = std::to_string(i),
@@ -76,6 +79,7 @@ Result<WmtsGrid> grid_of_matrix_set(const std::string& text, const RemoteOptions
 
 std::vector<TileShift> south_rows_of(const TileSetInfo& info) {
   std::vector<TileShift> shifts;
+  shifts.reserve(static_cast<std::size_t>(info.grid.max_level) + 1);
   for (int level = 0; level <= info.grid.max_level; ++level) {
     const auto number = static_cast<std::size_t>(level);
     const bool own = number < info.square->levels.size();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "base/result.h"
 #include "streaming/remote/remote_options.h"
 #include "streaming/remote/remote_tile_set.h"

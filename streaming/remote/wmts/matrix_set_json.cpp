@@ -102,6 +102,7 @@ Result<WmtsMatrixSet> read_matrix_set_json(const std::string& text) {
   const json* list = field_of(*object, "tileMatrices", "tileMatrix");
   if (list == nullptr || !list->is_array() || list->empty()) return Error{"it has no tileMatrices"};
   if (list->size() > kMaxJsonMatrices) return Error{fmt::format("more than {} matrices", kMaxJsonMatrices)};
+  set.matrices.reserve(list->size());
   for (const json& one : *list) {
     if (!one.is_object()) return Error{"a matrix is no object"};
     Result<WmtsMatrix> matrix = read_json_matrix(one);
