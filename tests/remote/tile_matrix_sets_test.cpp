@@ -224,6 +224,23 @@ TEST(TileMatrixSets, LevelsOfAnyRatioKeepTheirPlaces) {
   }
 }
 
+TEST(TileMatrixSets, DegreesOfAnyRatioKeepTheirPlacesToo) {
+  MatrixSetText thirds{.denominator = test::kCrs84QuadDenominator, .sizes = {{2, 1}, {6, 3}, {18, 9}}, .ratio = 3.0};
+  thirds.name = "thirds";
+  for (const char* crs : {"urn:ogc:def:crs:EPSG::4326", "urn:ogc:def:crs:OGC:1.3:CRS84"}) {
+    for (const char* corner : {"-180 90", "90 -180"}) {
+      thirds.crs = crs;
+      thirds.corner = corner;
+      const RemoteTileSet set = read_set(one_set_of(thirds));
+      ASSERT_TRUE(set.info.square);
+      ASSERT_EQ(set.info.square->levels.size(), 3U);
+      EXPECT_EQ(set.info.square->west, -180.0);
+      EXPECT_EQ(set.info.square->north, 90.0);
+      EXPECT_NEAR(set.info.square->levels[1].unit_per_px * 256.0, 60.0, 1e-9);
+    }
+  }
+}
+
 TEST(TileMatrixSets, UnitsOfASystemCount) {
   // New York Long Island in survey feet: a pixel is 0.28 mm, whatever the unit.
   MatrixSetText feet{.name = "feet",

@@ -23,6 +23,13 @@ std::optional<bool> order_of_box(const WmtsMatrixSet& set, double tile_span) {
   return easting == northing ? std::nullopt : std::optional(northing);
 }
 
+/// Order of degrees: a number beyond ±90° is a longitude.
+std::optional<bool> order_of_degrees(const WmtsMatrix& matrix, const CrsFacts& facts) {
+  const auto is_longitude = [&](double number) { return std::abs(number) * facts.unit_deg > 90.0 + 1e-6; };
+  const bool first = is_longitude(matrix.corner.first), second = is_longitude(matrix.corner.second);
+  return !facts.geographic || first == second ? std::nullopt : std::optional(second);
+}
+
 /// Places all over an area.
 std::vector<CrsPoint> lattice(const GeoRect& area) {
   constexpr int kSide = 11;
@@ -55,6 +62,7 @@ bool has_northing_first(const WmtsMatrixSet& set, const WmtsSystem& system, cons
   const WmtsMatrix& finest = set.matrices.back();
   const double span = finest.scale_denominator * kOgcPixel_m / system.unit_m * finest.tile_px;
   if (const auto order = order_of_box(set, span)) return *order;
+  if (const auto order = order_of_degrees(finest, system.crs.facts())) return *order;
   const Result<bool> known = is_northing_first(system.text);
   const bool defined = known && *known;
   const auto points = bounds ? system.crs.points(lattice(*bounds)) : Result<std::vector<CrsPoint>>(Error{});

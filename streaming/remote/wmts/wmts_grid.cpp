@@ -222,7 +222,12 @@ Result<WmtsGrid> grid_of(const WmtsMatrixSet& set, const std::vector<WmtsLimits>
   const bool mercator = is_web_mercator(set.crs);
   const Result<GeographicCrs> crs = mercator ? GeographicCrs{.body = "earth"} : parse_crs(set.crs);
   if (!crs) return projected_grid_of(set, limits, bounds);
-  if (const auto fault = fault_among(set.matrices)) return Error{*fault};
+  if (const auto fault = fault_among(set.matrices)) {
+    // Servers count the degrees of other bodies in two ways, of which only whole planets tell.
+    if (crs->body != "earth" || body) return Error{*fault};
+    Result<WmtsGrid> own = projected_grid_of(set, limits, bounds);
+    return own ? own : Error{*fault};
+  }
   WmtsGrid placed;
   placed.body = body.value_or(crs->body);
   const WmtsMatrix& finest = set.matrices.back();
