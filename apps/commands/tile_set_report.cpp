@@ -52,10 +52,13 @@ std::string elevation_text(const NumberInfo& elevation) {
 
 std::string made_of_text(const TileGrid& grid, const std::optional<CrsSquare>& square) {
   if (square) {
+    const bool own = !square->levels.empty();
+    const double pixel = own ? square->levels.back().unit_per_px
+                             : tile_span_deg(grid, grid.max_level) / grid.tile_px * square->unit_per_deg;
     return fmt::format(
         "made of      tiles in {}: {} px a tile, levels {} to {}, from ({:.12g}, {:.12g}), {:.6g} units a pixel\n",
         one_line(square->crs).substr(0, 200), grid.tile_px, grid.min_level, grid.max_level, square->west, square->north,
-        tile_span_deg(grid, grid.max_level) / grid.tile_px * square->unit_per_deg);
+        pixel);
   }
   return fmt::format("made of      tiles in Web Mercator (EPSG:3857): {} px a tile, levels {} to {}, {} tiles around\n",
                      grid.tile_px, grid.min_level, grid.max_level, columns(grid, grid.max_level));

@@ -12,6 +12,7 @@
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/open_remote_tiff.h"
+#include "apps/open_scene/options/place_options.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "base/hash_mix.h"
@@ -44,6 +45,9 @@ std::string cache_name(const SourceOptions& options) {
   std::string whole = fmt::format("{}|{}|{}|{}|{}|{}|{}", without_secrets(options.address), r.layer, r.matrix_set,
                                   r.style, r.time, r.root_span_deg.value_or(0.0), r.tile_px.value_or(0));
   if (options.projection == Projection::web_mercator) whole += "|web-mercator";
+  if (!options.place.crs.empty()) {
+    whole += "|" + options.place.crs + (options.place.bounds ? "|" + bounds_text(*options.place.bounds) : "");
+  }
   return fmt::format("{}-{:016x}.gpkg", name, name_hash(whole));
 }
 
@@ -153,12 +157,15 @@ Result<std::shared_ptr<TileSource>> open_online(const SourceOptions& options) {
   RemoteOptions remote = options.remote;
   if (!remote.max_level && is_template(options)) remote.max_level = kTemplateMaxLevel;
   if (options.projection) remote.projection = options.projection;
+  if (is_template(options) && !options.place.crs.empty()) {
+    remote.square = StatedSquare{.crs = options.place.crs, .extent = options.place.bounds};
+  }
   auto set = fetch_description(options.address, remote, http);
   if (!set) return set.error();
   http = within_limits(http, *set);
   auto cache = cache_of(options, *set);
   if (!cache) return cache.error();
-  if (is_template(options) && !knows_a_root(*cache, set->info.grid)) {
+  if (is_template(options) && !set->info.square && !knows_a_root(*cache, set->info.grid)) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
   // The cache holds the tiles in the server's projection.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "apps/preload/flight_tiles.h"
 #include "geo/body.h"
 #include "streaming/preload/geojson_region.h"
+#include "streaming/preload/projected_places.h"
 #include "streaming/warp/web_mercator.h"
 
 namespace terrella {
@@ -25,12 +27,13 @@ Result<LevelRange> levels_of(const PreloadCommand& command, const TileGrid& grid
 }
 
 /// Refuses polygons whose plan would take many minutes.
-Status check_edges(const Region& region, const TileGrid& grid, const LevelRange& levels) {
+Status check_edges(const Region& region, const std::function<double(int)>& span_deg_of, const LevelRange& levels,
+                   int min_level) {
   constexpr double kMostSteps = 1.0e9;
   int finest = levels.last;
-  const double steps = region.edge_steps(tile_span_deg(grid, finest));
+  const double steps = region.edge_steps(span_deg_of(finest));
   if (steps <= kMostSteps) return Done{};
-  while (finest > 0 && region.edge_steps(tile_span_deg(grid, finest)) > kMostSteps) --finest;
+  while (finest > min_level && region.edge_steps(span_deg_of(finest)) > kMostSteps) --finest;
   return Error{
       fmt::format("--polygon: its edges pass {:.1g} tiles of level {}, too many to plan; simplify the polygons, "
                   "remove edges that lie on each other, or end --levels at {}",
@@ -48,14 +51,26 @@ Result<Region> region_of(const PreloadCommand& command) {
   return region;
 }
 
-/// For Web Mercator, returns the source tiles of the drawn tiles.
+/// Returns the source tiles of the drawn tiles.
 Result<std::vector<TileId>> tiles_flown_over(const std::vector<FlightPath>& path, const Body& body, Viewport size,
-                                             const TileGrid& grid) {
-  if (grid.projection != Projection::web_mercator) return tiles_along(path, {.body = body, .grid = grid, .size = size});
-  const auto stored =
-      stored_tiles_of(grid, tiles_along(path, {.body = body, .grid = geodetic_grid_of(grid), .size = size}));
+                                             const TileSetInfo& info) {
+  const auto grid = drawn_grid_of(info);
+  if (!grid) return grid.error();
+  auto drawn = tiles_along(path, {.body = body, .grid = *grid, .size = size});
+  if (*grid == info.grid) return drawn;
+  const auto stored = stored_tiles_of(info, drawn);
   if (!stored) return stored.error();
   return std::vector<TileId>(stored->begin(), stored->end());
+}
+
+Result<std::shared_ptr<const TilePlan>> plan_of_flight(const PreloadCommand& command, const TileSetInfo& info,
+                                                       const Body& body, const LevelRange& levels) {
+  auto path = read_flight(command.flight);
+  if (!path) return path.error();
+  auto tiles = tiles_flown_over(*path, body, command.size, info);
+  if (!tiles) return tiles.error();
+  std::erase_if(*tiles, [&](const TileId& id) { return id.level < levels.first || id.level > levels.last; });
+  return std::shared_ptr<const TilePlan>(plan_list(*std::move(tiles)));
 }
 
 Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command, const TileSetInfo& info) {
@@ -63,25 +78,21 @@ Result<std::shared_ptr<const TilePlan>> whole_plan(const PreloadCommand& command
   if (!body) return body.error();
   const auto levels = levels_of(command, info.grid);
   if (!levels) return levels.error();
-  if (info.square && (!command.flight.empty() || !command.boxes.empty() || !command.polygons.empty())) {
-    return Error{
-        fmt::format("{}: its tiles are in {}, and areas and flights choose tiles in EPSG:4326 or EPSG:3857 alone; "
-                    "preload all of it, or --levels of it",
-                    command.source.redacted(), info.square->crs.substr(0, 100))};
-  }
-  if (!command.flight.empty()) {
-    auto path = read_flight(command.flight);
-    if (!path) return path.error();
-    auto tiles = tiles_flown_over(*path, *body, command.size, info.grid);
-    if (!tiles) return tiles.error();
-    std::erase_if(*tiles, [&](const TileId& id) { return id.level < levels->first || id.level > levels->last; });
-    return std::shared_ptr<const TilePlan>(plan_list(*std::move(tiles)));
-  }
+  if (!command.flight.empty()) return plan_of_flight(command, info, *body, *levels);
   auto region = region_of(command);
   if (!region) return region.error();
-  if (const Status few = check_edges(*region, info.grid, *levels); !few) return few.error();
+  std::shared_ptr<const ProjectedPlaces> projected;
+  if (info.square) {
+    auto places = ProjectedPlaces::open(info);
+    if (!places) return Error{fmt::format("{}: {}", command.source.redacted(), places.error().message)};
+    projected = *std::move(places);
+  }
+  const auto span_deg = [&](int level) {
+    return projected ? projected->span_deg(level) : tile_span_deg(info.grid, level);
+  };
+  if (const Status few = check_edges(*region, span_deg, *levels, info.grid.min_level); !few) return few.error();
   return std::shared_ptr<const TilePlan>(
-      plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last));
+      plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last, std::move(projected)));
 }
 
 }  // namespace

@@ -54,12 +54,25 @@ struct NumberInfo {
 /// Fails if scale or offset is not finite, scale is 0, or a range is empty. thread: any
 [[nodiscard]] Status check_numbers(const NumberInfo& info);
 
+/// A level of a `projected` set that has a place of its own.
+struct CrsLevel {
+  double west = 0.0;  ///< north-west corner of the first tile, easting first, in units of the system
+  double north = 0.0;
+  double unit_per_px = 1.0;  ///< side of a pixel, in units of the system; > 0
+  std::int64_t columns = 0;  ///< tiles; > 0
+  std::int64_t rows = 0;
+  bool operator==(const CrsLevel&) const = default;
+};
+
 /// The square of a coordinate reference system that a `projected` grid covers.
 struct CrsSquare {
   std::string crs;    ///< text for Crs::open() (streaming/georeference)
   double west = 0.0;  ///< north-west corner, easting first, in units of `crs`
   double north = 0.0;
   double unit_per_deg = 1.0;  ///< 1/360 of the side, in units of `crs`; > 0
+  /// Places of levels that do not halve or whose corners move, by level of the grid; empty: those of the quadtree. The
+  /// grid then only counts tiles: degrees of its columns and rows have no meaning, and its bounds are whole.
+  std::vector<CrsLevel> levels = {};
   bool operator==(const CrsSquare&) const = default;
 };
 

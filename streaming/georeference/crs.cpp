@@ -79,6 +79,13 @@ void read_axes(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
   }
 }
 
+double first_unit(PJ_CONTEXT* context, const PJconsts* crs) {
+  const ProjHandle axes = wrap(proj_crs_get_coordinate_system(context, crs));
+  double unit = 0.0;
+  if (axes) proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, nullptr, &unit, nullptr, nullptr, nullptr);
+  return unit;
+}
+
 void read_projection(PJ_CONTEXT* context, const PJconsts* crs, CrsFacts& facts) {
   const ProjHandle conversion = wrap(proj_crs_get_coordoperation(context, crs));
   if (!conversion) return;
@@ -192,6 +199,7 @@ Result<Crs> Crs::open(const std::string& text) {
   if (Status read = read_figure(context, made.crs_.get(), facts); !read) return read.error();
   read_axes(context, made.crs_.get(), facts);
   if (!facts.geographic) {
+    facts.unit_m = first_unit(context, made.crs_.get());
     read_projection(context, made.crs_.get(), facts);
     const ProjHandle base = wrap(proj_crs_get_geodetic_crs(context, made.crs_.get()));
     if (base) read_axes(context, base.get(), facts);

@@ -35,6 +35,7 @@ struct CrsFacts {
   double a_m = 0.0;  ///< radii of the body's ellipsoid
   double b_m = 0.0;
   double unit_deg = 1.0;  ///< unit of the axes of a geographic system
+  double unit_m = 1.0;    ///< unit of the axes of a projected system
   bool centric = false;   ///< the name of the system calls its latitudes planetocentric
 };
 

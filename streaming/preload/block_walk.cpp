@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "streaming/preload/projected_places.h"
+
 namespace terrella {
 namespace {
 
@@ -17,13 +19,16 @@ TileSpan side(std::int64_t number, int shift) { return {number << shift, ((numbe
 
 }  // namespace
 
-BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level)
+BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level,
+                     const ProjectedPlaces* projected)
     : grid_(grid),
       ellipsoid_(ellipsoid),
       region_(region),
       level_(level),
+      projected_(projected),
       sliver_deg_(kSliverTiles * tile_span_deg(grid, grid.max_level)),
-      places_(tile_places(grid, level)) {
+      places_(projected == nullptr ? tile_places(grid, level) : projected->places(level)) {
+  if (projected != nullptr) whole_ = region.whole();
   const auto longest = static_cast<std::uint64_t>(std::max(columns(grid, level), rows(grid, level)));
   visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, region.whole());
 }
@@ -47,13 +52,29 @@ std::optional<TileBlock> BlockWalk::next() {
 
 void BlockWalk::visit(const Node& node, const Region::Sight& outer) {
   if (!holds_places(node)) return;
-  const Overlap overlap = region_.empty() ? Overlap::inside : region_.classify(rect(node), outer, seen_);
+  const Overlap overlap = overlap_of(node, outer);
   if (overlap == Overlap::outside) return;
   if (overlap == Overlap::inside || node.shift == 0) {
     add_blocks(node);
     return;
   }
   way_.push_back({node, 0, seen_});
+}
+
+Overlap BlockWalk::overlap_of(const Node& node, const Region::Sight& outer) {
+  if (region_.empty()) return Overlap::inside;
+  return projected_ != nullptr ? projected_overlap_of(node) : region_.classify(rect(node), outer, seen_);
+}
+
+Overlap BlockWalk::projected_overlap_of(const Node& node) {
+  bool some = false, all = true;
+  for (const MapRect& part : projected_->rects(level_, side(node.x, node.shift), side(node.y, node.shift))) {
+    const Overlap overlap = region_.classify(part, whole_, seen_);
+    some = some || overlap != Overlap::outside;
+    all = all && overlap == Overlap::inside;
+  }
+  if (!some) return Overlap::outside;
+  return all ? Overlap::inside : Overlap::cut;
 }
 
 bool BlockWalk::holds_places(const Node& node) const {

@@ -12,6 +12,8 @@
 
 namespace terrella {
 
+class ProjectedPlaces;
+
 /// Tiles of one level: each of these columns in each of these rows.
 struct TileBlock {
   TileSpan columns;
@@ -20,10 +22,12 @@ struct TileBlock {
 };
 
 /// Lists the tiles of a level that overlap a region, as blocks. Walks down a quadtree whose root covers the whole
-/// level, and stores only the current path. Grid, ellipsoid and region must outlive the walk. thread: one at a time
+/// level, and stores only the current path. Grid, ellipsoid and region must outlive the walk, as must `projected`, the
+/// places of a `projected` grid; null for other grids. thread: one at a time
 class BlockWalk {
  public:
-  BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level);
+  BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level,
+            const ProjectedPlaces* projected = nullptr);
   [[nodiscard]] std::optional<TileBlock> next();
 
  private:
@@ -41,11 +45,15 @@ class BlockWalk {
   void add_blocks(const Node& node);
   [[nodiscard]] bool holds_places(const Node& node) const;
   [[nodiscard]] MapRect rect(const Node& node) const;
+  [[nodiscard]] Overlap overlap_of(const Node& node, const Region::Sight& outer);
+  [[nodiscard]] Overlap projected_overlap_of(const Node& node);
 
   const TileGrid& grid_;
   const Ellipsoid& ellipsoid_;
   const Region& region_;
   int level_;
+  const ProjectedPlaces* projected_;
+  Region::Sight whole_;  ///< for a `projected` grid: its rectangles do not enclose each other
   double sliver_deg_;
   TilePlaces places_;
   std::vector<Opened> way_;

@@ -4,14 +4,16 @@
 #include <utility>
 
 #include "streaming/preload/block_walk.h"
+#include "streaming/preload/projected_places.h"
 
 namespace terrella {
 namespace {
 
 class RegionPlan : public TilePlan {
  public:
-  RegionPlan(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region, TileSpan levels)
-      : grid_(grid), ellipsoid_(ellipsoid), region_(std::move(region)) {
+  RegionPlan(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region, TileSpan levels,
+             std::shared_ptr<const ProjectedPlaces> projected)
+      : grid_(grid), ellipsoid_(ellipsoid), region_(std::move(region)), projected_(std::move(projected)) {
     for (auto level = static_cast<int>(levels.first); level <= levels.last; ++level) {
       BlockWalk walk = blocks(level);
       LevelCount count{level, 0};
@@ -21,12 +23,13 @@ class RegionPlan : public TilePlan {
   }
   [[nodiscard]] const std::vector<LevelCount>& counts() const override { return counts_; }
   [[nodiscard]] std::unique_ptr<TileFeed> walk() const override;
-  [[nodiscard]] BlockWalk blocks(int level) const { return {grid_, ellipsoid_, region_, level}; }
+  [[nodiscard]] BlockWalk blocks(int level) const { return {grid_, ellipsoid_, region_, level, projected_.get()}; }
 
  private:
   TileGrid grid_;
   Ellipsoid ellipsoid_;
   Region region_;
+  std::shared_ptr<const ProjectedPlaces> projected_;
   std::vector<LevelCount> counts_;
 };
 
@@ -172,9 +175,9 @@ std::int64_t TilePlan::total() const {
 }
 
 std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region, int first_level,
-                                      int last_level) {
+                                      int last_level, std::shared_ptr<const ProjectedPlaces> projected) {
   const TileSpan levels{std::max(first_level, grid.min_level), std::min(last_level, grid.max_level)};
-  return std::make_unique<RegionPlan>(grid, ellipsoid, std::move(region), levels);
+  return std::make_unique<RegionPlan>(grid, ellipsoid, std::move(region), levels, std::move(projected));
 }
 
 std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles) { return std::make_unique<ListPlan>(std::move(tiles)); }

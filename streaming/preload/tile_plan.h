@@ -11,6 +11,8 @@
 
 namespace terrella {
 
+class ProjectedPlaces;
+
 /// Tiles of one column x: the rows [first_y, last_y] of a level. A GeoPackage is indexed by column, then row, and a
 /// directory has a folder for each column. In this order lookups and requests cost least.
 struct TileRun {
@@ -47,9 +49,11 @@ class TilePlan {
 
 /// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
 /// the whole planet. Only the region is kept: counting and walking go down the quadtree, and take subtrees inside the
-/// region, or pass over those outside, as a whole. thread: any
+/// region, or pass over those outside, as a whole. `projected`: the places of a `projected` grid, whose plan may have a
+/// tile beside the region; null for other grids. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
-                                                    int first_level, int last_level);
+                                                    int first_level, int last_level,
+                                                    std::shared_ptr<const ProjectedPlaces> projected = nullptr);
 
 /// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);

@@ -25,7 +25,22 @@ CrsSquare square_of(const TileSetInfo& info) {
       .crs = "EPSG:3857", .west = -kMercatorHalf_m, .north = kMercatorHalf_m, .unit_per_deg = kMercatorHalf_m / 180.0};
 }
 
+RasterLevel placed_level(const CrsLevel& level, int tile_px) {
+  return {.width_px = level.columns * tile_px,
+          .height_px = level.rows * tile_px,
+          .block_width_px = tile_px,
+          .block_height_px = tile_px,
+          .to_crs = {.x0 = level.west,
+                     .x_per_column = level.unit_per_px,
+                     .x_per_row = 0.0,
+                     .y0 = level.north,
+                     .y_per_column = 0.0,
+                     .y_per_row = -level.unit_per_px}};
+}
+
 RasterLevel level_of(const TileGrid& grid, const CrsSquare& square, int level) {
+  const auto number = static_cast<std::size_t>(level);
+  if (number < square.levels.size()) return placed_level(square.levels[number], grid.tile_px);
   const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
   const double pixel = pixel_deg * square.unit_per_deg;
   const RowLatitudes rows = row_bounds(grid);

@@ -44,6 +44,7 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
   prefer(merged.max_level, otherwise.max_level);
   prefer(merged.bounds, otherwise.bounds);
   prefer(merged.projection, otherwise.projection);
+  prefer(merged.square, otherwise.square);
   prefer(merged.latitude, otherwise.latitude);
   prefer(merged.format, otherwise.format);
   prefer(merged.numbers, otherwise.numbers);
@@ -59,6 +60,9 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
 
 Status check_projection(const TileGrid& grid, const RemoteOptions& options) {
   if (!options.projection) return Done{};
+  if (grid.projection == Projection::projected) {
+    return Error{"it is in a coordinate system of its own, not in the projection that was given"};
+  }
   const bool said = *options.projection == Projection::web_mercator;
   if (said == (grid.projection == Projection::web_mercator)) return Done{};
   if (said) return Error{"it is in longitude and latitude, not in Web Mercator as was given"};

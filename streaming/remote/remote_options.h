@@ -5,9 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "streaming/georeference/georeference.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
+
+/// The place of a URL template's tiles in a coordinate system of its own: `crs` and `extent`, or a matrix set.
+struct StatedSquare {
+  std::string crs{};                  ///< a code, WKT or a PROJ string
+  std::optional<CrsBounds> extent{};  ///< area of the tiles, units of `crs`; tiles begin at its north-west corner
+  /// Units in a pixel, by level; empty: level 0 is one tile over the longer side, and levels halve.
+  std::vector<double> resolutions{};
+  std::string matrix_set_json{};  ///< an OGC tile matrix set as JSON; empty: none
+};
 
 /// User's options for a remote set, from the command line or a JSON description. Defaults come from the document that
 /// describes the set, else as noted.
@@ -24,6 +34,7 @@ struct RemoteOptions {
   std::optional<GeoRect> bounds{};        ///< none: the planet, or the bounds of the document
   /// web_mercator: projection of the tiles. For others: must agree with the document.
   std::optional<Projection> projection{};
+  std::optional<StatedSquare> square{};  ///< for a URL template; none: longitude and latitude, or Web Mercator
   std::optional<LatitudeKind> latitude{};
   std::optional<ImageFormat> format{};  ///< none: by the ending of a URL template, else jpeg
 

@@ -17,10 +17,11 @@ constexpr int kVersion = 1;
 constexpr int kMaxLife_s = 315'360'000;  // ten years; more is a mistake of units
 
 constexpr std::array kKnown = {
-    "version",    "name",           "attribution",   "body",      "url",     "subdomains", "headers",
-    "wmts",       "layer",          "matrix_set",    "style",     "time",    "tms",        "wms",
-    "min_level",  "max_level",      "root_span_deg", "tile_px",   "bounds",  "format",     "latitude",
-    "projection", "absence_life_s", "tile_life_s",   "elevation", "encoding"};
+    "version",     "name",           "attribution",   "body",      "url",      "subdomains", "headers",
+    "wmts",        "layer",          "matrix_set",    "style",     "time",     "tms",        "wms",
+    "min_level",   "max_level",      "root_span_deg", "tile_px",   "bounds",   "format",     "latitude",
+    "projection",  "absence_life_s", "tile_life_s",   "elevation", "encoding", "crs",        "extent",
+    "resolutions", "tile_matrix_set"};
 
 std::optional<std::string> text_if(JsonFields& fields, const char* field) {
   return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
@@ -59,6 +60,44 @@ void read_grid(JsonFields& fields, RemoteOptions& options) {
     const bool centric = fields.choice("latitude", "graphic", "centric", 0) == 1;
     options.latitude = centric ? LatitudeKind::centric : LatitudeKind::graphic;
   }
+}
+
+std::vector<double> numbers_of(const nlohmann::json& object, JsonFields& fields, const char* field, std::size_t most) {
+  std::vector<double> numbers;
+  if (!fields.has(field)) return numbers;
+  const nlohmann::json& list = object[field];
+  const bool fits = list.is_array() && !list.empty() && list.size() <= most;
+  if (fits) numbers.reserve(list.size());
+  for (std::size_t i = 0; fits && i < list.size(); ++i) {
+    if (list[i].is_number()) numbers.push_back(list[i].get<double>());
+  }
+  if (fits && numbers.size() == list.size()) return numbers;
+  return fields.fail<std::vector<double>>(field, fmt::format("must be a list of numbers, at most {}", most));
+}
+
+/// Reads the place of tiles in a coordinate system of their own.
+void read_square(const nlohmann::json& object, JsonFields& fields, SourceDescription& source) {
+  StatedSquare square{.crs = fields.text("crs")};
+  const auto extent = numbers_of(object, fields, "extent", 4);
+  if (extent.size() == 4) square.extent = CrsBounds{extent[0], extent[1], extent[2], extent[3]};
+  const bool ordered = square.extent && extent[0] < extent[2] && extent[1] < extent[3];
+  if (fields.has("extent") && !ordered)
+    fields.fail<int>("extent", "must be [west, south, east, north] in units of crs");
+  square.resolutions = numbers_of(object, fields, "resolutions", 64);
+  for (std::size_t i = 0; i < square.resolutions.size(); ++i) {
+    const bool finer = i == 0 || square.resolutions[i] < square.resolutions[i - 1];
+    if (!(square.resolutions[i] > 0.0) || !finer) {
+      fields.fail<int>("resolutions", "must be positive and descend: units of crs in a pixel of level 0, 1, …");
+    }
+  }
+  if (fields.has("tile_matrix_set")) square.matrix_set_json = object["tile_matrix_set"].dump();
+  const bool has_crs = !square.crs.empty();
+  if (!has_crs && (square.extent || !square.resolutions.empty())) fields.fail<int>("extent", "needs a \"crs\"");
+  if (has_crs && !square.matrix_set_json.empty()) fields.fail<int>("crs", "is that of the \"tile_matrix_set\"");
+  if (!has_crs && square.matrix_set_json.empty()) return;
+  if (has_crs && !square.extent) fields.fail<int>("crs", "needs an \"extent\"");
+  if (source.kind != SourceDescription::Kind::url_template) fields.fail<int>("crs", "is for a \"url\" alone");
+  source.options.square = std::move(square);
 }
 
 void read_kind(JsonFields& fields, SourceDescription& source) {
@@ -110,6 +149,7 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.tile_life = life_if(fields, "tile_life_s");
   options.missing_life = life_if(fields, "absence_life_s");
   read_grid(fields, options);
+  read_square(*object, fields, source);
   options.numbers = read_elevation(*object, fields, where);
   if (options.numbers && !options.numbers->rgb && options.format && options.format != ImageFormat::png) {
     fields.fail<int>("format", "must be \"png\" where there is an \"elevation\"");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "streaming/remote/bulk_terms.h"
+#include "streaming/remote/stated_square.h"
 #include "streaming/remote/web_address.h"
 #include "tiles/grid_ranges.h"
 
@@ -114,6 +115,26 @@ ImageFormat format_of_ending(const std::string& url) {
   return path.ends_with(".png") ? ImageFormat::png : ImageFormat::jpeg;
 }
 
+/// Gives a set the grid of the options, in longitude and latitude or in Web Mercator.
+Status place_in_degrees(const RemoteOptions& options, RemoteTileSet& set, const std::string& where) {
+  if (!options.max_level) {
+    return Error{where + ": it is not said how many levels it has; say ‹levels› 0-N (max_level in a description)"};
+  }
+  TileGrid& grid = set.info.grid;
+  grid.projection = options.projection.value_or(grid.projection);
+  grid.root_span_deg = options.root_span_deg.value_or(grid.projection == Projection::web_mercator ? 360.0 : 180.0);
+  grid.tile_px = options.tile_px.value_or(256);
+  grid.min_level = options.min_level.value_or(0);
+  grid.max_level = *options.max_level;
+  grid.bounds = options.bounds.value_or(GeoRect{});
+  if (Status checked = check_grid(grid, where); !checked) return checked;
+  if (set.url.with_secrets().find("{-y}") != std::string::npos) {
+    const bool level_said = options.min_level.value_or(0) > 0;
+    return fit_rows_from_south(grid, level_said, where);
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Status check_url_template(const RemoteTileSet& set, bool files, const std::string& where) {
@@ -150,20 +171,12 @@ Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& opt
   if (set.subdomains.empty() && url.with_secrets().find("{s}") != std::string::npos) set.subdomains = {"a", "b", "c"};
   if (Status checked = check_options(options, where); !checked) return checked.error();
   if (Status checked = check_url_template(set, files, where); !checked) return checked.error();
-  if (!options.max_level) {
-    return Error{where + ": it is not said how many levels it has; say ‹levels› 0-N (max_level in a description)"};
-  }
-  TileGrid& grid = set.info.grid;
-  grid.projection = options.projection.value_or(grid.projection);
-  grid.root_span_deg = options.root_span_deg.value_or(grid.projection == Projection::web_mercator ? 360.0 : 180.0);
-  grid.tile_px = options.tile_px.value_or(256);
-  grid.min_level = options.min_level.value_or(0);
-  grid.max_level = *options.max_level;
-  grid.bounds = options.bounds.value_or(GeoRect{});
-  if (Status checked = check_grid(grid, where); !checked) return checked.error();
-  if (url.with_secrets().find("{-y}") != std::string::npos) {
-    const bool level_said = options.min_level.value_or(0) > 0;
-    if (Status fitted = fit_rows_from_south(grid, level_said, where); !fitted) return fitted.error();
+  if (options.square) {
+    if (Status placed = place_on_stated_square(options, set); !placed) {
+      return Error{where + ": " + placed.error().message};
+    }
+  } else if (Status placed = place_in_degrees(options, set, where); !placed) {
+    return placed.error();
   }
   set.info.format = options.format.value_or(format_of_ending(url.with_secrets()));
   set.info.name = url.without_query();

@@ -58,7 +58,7 @@ Range tiles_over(double low_deg, double high_deg, double origin_deg, double span
 /// whose tile begins at -90° and ends at 270°.
 Result<TmsDescription> correct_tms_roots(TmsDescription tms, const fs::path& root) {
   const TileGrid& grid = tms.info.grid;
-  if (grid.projection == Projection::web_mercator) return tms;
+  if (grid.projection != Projection::equirectangular) return tms;
   const fs::path finest = root / tms.folder.at(grid.max_level);
   const std::optional<Range> columns = numbers_in(finest);
   if (!columns) return tms;
@@ -84,6 +84,12 @@ Result<TmsDescription> correct_tms_roots(TmsDescription tms, const fs::path& roo
 }
 
 namespace fs = std::filesystem;
+
+/// Rows of the set's tiles at a level.
+std::int64_t rows_of(const TileSetInfo& info, int level) {
+  const bool own = info.square && !info.square->levels.empty();
+  return own ? info.square->levels.at(static_cast<std::size_t>(level)).rows : rows(info.grid, level);
+}
 
 /// Numbers of columns and rows are smaller than this at every level.
 constexpr double kMostTilesAcross = 1e15;
@@ -164,7 +170,7 @@ class DirectorySource : public TileSource, public TileLister {
     for (fs::directory_iterator tile(folder, failed), end; !failed && tile != end; tile.increment(failed)) {
       const auto row = number_named(tile->path().stem().string());
       if (!row || tile->path().extension() != "." + layout_.extension) continue;
-      id.y = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - *row : *row;
+      id.y = layout_.rows_from_south ? rows_of(info_, id.level) - 1 - *row : *row;
       id.squeeze =
           squeezed && id.y >= 0 && id.y < rows(info_.grid, id.level) ? squeeze_of_row(info_.grid, id.level, id.y) : 0;
       if ((id.squeeze > 0) != squeezed || !exists(info_.grid, id)) continue;
@@ -179,7 +185,7 @@ class DirectorySource : public TileSource, public TileLister {
   }
 
   [[nodiscard]] fs::path path_of(const TileId& id) const {
-    const std::int64_t row = layout_.rows_from_south ? rows(info_.grid, id.level) - 1 - id.y : id.y;
+    const std::int64_t row = layout_.rows_from_south ? rows_of(info_, id.level) - 1 - id.y : id.y;
     return levels(id.squeeze != 0) / layout_.folder.at(id.level) / std::to_string(id.x) /
            fmt::format("{}.{}", row, layout_.extension);
   }

@@ -224,6 +224,17 @@ Result<std::optional<std::string>> read_description(SqliteReader& reader, const 
   return text;
 }
 
+/// The table of a file of Terrella's whose levels have places of their own. Their numbers are the zoom levels.
+GeoPackageTiles with_own_levels(GeoPackageTiles tiles) {
+  tiles.table = "tiles";
+  const TileGrid& grid = tiles.info.grid;
+  for (int level = grid.min_level; level <= grid.max_level; ++level) {
+    const CrsLevel& place = tiles.info.square->levels[static_cast<std::size_t>(level)];
+    tiles.levels[level] = {.zoom = level, .columns = place.columns, .rows = place.rows};
+  }
+  return tiles;
+}
+
 }  // namespace
 
 Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where) {
@@ -236,6 +247,7 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
     if (!info) return info.error();
     tiles.info = *std::move(info);
   }
+  if (tiles.info.square && !tiles.info.square->levels.empty()) return with_own_levels(std::move(tiles));
   const Result<TileTable> table = find_table(reader, ours ? &tiles.info : nullptr, where);
   if (!table) return table.error();
   const auto matrices = read_matrices(reader, {table->name, 1.0 / table->units.per_deg}, table->set, where);

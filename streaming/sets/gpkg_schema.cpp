@@ -1,5 +1,6 @@
 #include "streaming/sets/gpkg_schema.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "streaming/georeference/crs_text.h"
@@ -114,23 +115,51 @@ GridUnits units_of(Projection projection, const std::optional<CrsSquare>& square
   return {.per_deg = square->unit_per_deg, .x_of_0 = square->west + half, .y_of_0 = square->north - half};
 }
 
-SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
+namespace {
+
+struct MatrixSize {
+  double columns, rows, pixel;
+};
+
+MatrixSize matrix_size(const TileSetInfo& info, int level) {
   const TileGrid& grid = info.grid;
-  const double columns_of_level = std::ldexp(static_cast<double>(columns(grid, 0)), level);
-  const double rows_of_level = std::ldexp(static_cast<double>(rows(grid, 0)), level);
-  const double pixel = tile_span_deg(grid, level) / grid.tile_px * units_of(info).per_deg;
+  if (info.square && !info.square->levels.empty()) {
+    const CrsLevel& place = info.square->levels.at(static_cast<std::size_t>(level));
+    return {static_cast<double>(place.columns), static_cast<double>(place.rows), place.unit_per_px};
+  }
+  return {.columns = std::ldexp(static_cast<double>(columns(grid, 0)), level),
+          .rows = std::ldexp(static_cast<double>(rows(grid, 0)), level),
+          .pixel = tile_span_deg(grid, level) / grid.tile_px * units_of(info).per_deg};
+}
+
+}  // namespace
+
+SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
+  const MatrixSize size = matrix_size(info, level);
   return {.sql =
               "INSERT INTO gpkg_tile_matrix VALUES ('tiles', CAST(?1 AS INTEGER), CAST(?2 AS INTEGER), "
               "CAST(?3 AS INTEGER), CAST(?4 AS INTEGER), CAST(?4 AS INTEGER), ?5, ?5)",
           .texts = {},
-          .numbers = {static_cast<double>(level), columns_of_level, rows_of_level, static_cast<double>(grid.tile_px),
-                      pixel}};
+          .numbers = {static_cast<double>(level), size.columns, size.rows, static_cast<double>(info.grid.tile_px),
+                      size.pixel}};
 }
 
 namespace {
 
 /// The extension knows no two's complement numbers. Other programs see gray pictures of them.
 bool is_coverage(const TileSetInfo& info) { return info.numbers && !info.numbers->is_signed && !info.numbers->rgb; }
+
+/// True if the levels have other corners, for which a GeoPackage has no place.
+bool has_moving_corners(const TileSetInfo& info) {
+  return info.square && std::ranges::any_of(info.square->levels, [&](const CrsLevel& level) {
+           return level.west != info.square->west || level.north != info.square->north;
+         });
+}
+
+std::string data_type(const TileSetInfo& info) {
+  if (has_moving_corners(info)) return kLevelsDataType;
+  return is_coverage(info) ? "2d-gridded-coverage" : "tiles";
+}
 
 SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
   const GeoRect& bounds = info.grid.bounds;
@@ -143,8 +172,7 @@ SqlStatement contents(const TileSetInfo& info, const std::string& last_change) {
           "INSERT INTO gpkg_contents (table_name, data_type, identifier, description, last_change, min_x, min_y, "
           "max_x, max_y, srs_id) VALUES ('tiles', ?1, ?2, ?3, "
           "coalesce(nullif(?4, ''), strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), ?5, ?6, ?7, ?8, CAST(?9 AS INTEGER))",
-      .texts = {is_coverage(info) ? "2d-gridded-coverage" : "tiles", info.name.empty() ? "tiles" : info.name,
-                info.attribution, last_change},
+      .texts = {data_type(info), info.name.empty() ? "tiles" : info.name, info.attribution, last_change},
       .numbers = {units.x(crosses ? -180.0 : tidy_degrees(bounds.west)),
                   units.y(mercator ? rows.south_deg : tidy_degrees(bounds.south)),
                   units.x(crosses ? 180.0 : tidy_degrees(bounds.east)),

@@ -15,6 +15,8 @@ struct SqlStatement {
   std::vector<double> numbers = {};  ///< bound after the texts
 };
 
+/// data_type of a table whose levels have corners of their own. Other programs find no tiles in it.
+inline constexpr const char* kLevelsDataType = "terrella:levels";
 inline constexpr int kSrsGeodetic = 4326;
 inline constexpr int kSrsWebMercator = 3857;
 /// Length of a degree of longitude in EPSG:3857, metres.

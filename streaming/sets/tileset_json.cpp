@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "geo/body.h"
 #include "streaming/georeference/crs_text.h"
@@ -22,6 +26,37 @@ constexpr const char* kCutKeyField = "cut_key";
 /// Format of tiles of floats.
 constexpr const char* kTiffEnding = "tif";
 
+/// Reads a level with a place of its own: west, north, unit_per_px, columns, rows.
+std::optional<CrsLevel> read_crs_level(const json& value) {
+  const auto is_number = [](const json& part) { return part.is_number(); };
+  if (!value.is_array() || value.size() != 5 || !std::ranges::all_of(value, is_number)) return std::nullopt;
+  constexpr double kMostTiles = 0x1p40, kFarthest = 1e12;
+  const double west = value[0], north = value[1], pixel = value[2], columns = value[3], rows = value[4];
+  const bool good = std::abs(west) < kFarthest && std::abs(north) < kFarthest && pixel > 0.0 && pixel < kFarthest &&
+                    columns >= 1.0 && columns <= kMostTiles && rows >= 1.0 && rows <= kMostTiles;
+  if (!good) return std::nullopt;
+  return CrsLevel{.west = west,
+                  .north = north,
+                  .unit_per_px = pixel,
+                  .columns = static_cast<std::int64_t>(columns),
+                  .rows = static_cast<std::int64_t>(rows)};
+}
+
+Result<std::vector<CrsLevel>> read_crs_levels(const json& square) {
+  std::vector<CrsLevel> levels;
+  const auto list = square.find("levels");
+  if (list == square.end()) return levels;
+  const Error fault{"has \"levels\" that are no list of [west, north, unit_per_px, columns, rows]"};
+  if (!list->is_array() || list->size() > kMaxTileLevel + 1) return fault;
+  levels.reserve(list->size());
+  for (const json& value : *list) {
+    const auto level = read_crs_level(value);
+    if (!level) return fault;
+    levels.push_back(*level);
+  }
+  return levels;
+}
+
 /// Reads the square of a `projected` grid.
 std::optional<CrsSquare> read_square(const json& object, JsonFields& fields, const std::string& where) {
   if (!fields.has("square")) return {};
@@ -38,6 +73,9 @@ std::optional<CrsSquare> read_square(const json& object, JsonFields& fields, con
   }
   const Result<std::string> harmless = stated_crs(square.crs);
   if (!harmless) return fields.fail<std::optional<CrsSquare>>("square", harmless.error().message);
+  auto levels = read_crs_levels(value);
+  if (!levels) return fields.fail<std::optional<CrsSquare>>("square", levels.error().message);
+  square.levels = *std::move(levels);
   return square;
 }
 
@@ -73,6 +111,10 @@ Result<TileSetInfo> read_fields(const json& object, const std::string& where) {
   info.square = read_square(object, fields, where);
   if (info.square.has_value() != (info.grid.projection == Projection::projected)) {
     fields.fail<int>("square", "and the projection \"projected\" need each other");
+  }
+  if (info.square && !info.square->levels.empty() &&
+      std::cmp_less_equal(info.square->levels.size(), info.grid.max_level)) {
+    fields.fail<int>("square", "has fewer \"levels\" than the grid");
   }
   if (fields.error()) return *fields.error();
   if (Status grid = check_grid(info.grid, where); !grid) return grid.error();
@@ -122,6 +164,9 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   if (const auto& square = info.square) {
     object["square"] = {
         {"crs", square->crs}, {"west", square->west}, {"north", square->north}, {"unit_per_deg", square->unit_per_deg}};
+    for (const CrsLevel& level : square->levels) {
+      object["square"]["levels"].push_back({level.west, level.north, level.unit_per_px, level.columns, level.rows});
+    }
   }
   if (!cut_key.empty()) object[kCutKeyField] = cut_key;
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "streaming/sets/gpkg_schema.h"
+#include "streaming/sets/tms_projected.h"
 #include "tiles/grid_ranges.h"
 
 namespace terrella {
@@ -42,14 +43,17 @@ bool is_mercator(const pugi::xml_node& map) {
   return srs.find("3857") != std::string::npos || srs.find("900913") != std::string::npos;
 }
 
+/// True for a system other than those of longitude and latitude and Web Mercator.
+bool is_projected(const pugi::xml_node& map) {
+  const std::string srs = map.child_value("SRS");
+  return !is_mercator(map) && srs != "EPSG:4326" && srs != "OGC:CRS84" && srs != "CRS:84";
+}
+
 std::optional<std::string> refuse_reference_system(const pugi::xml_node& map) {
   const std::string srs = map.child_value("SRS");
   const std::string profile = map.child("TileSets").attribute("profile").value();
   if (!is_mercator(map) && profile.find("mercator") != std::string::npos) {
     return fmt::format("its <SRS> is {} and its profile \"{}\", which do not go together", srs, profile);
-  }
-  if (!is_mercator(map) && srs != "EPSG:4326" && srs != "OGC:CRS84" && srs != "CRS:84") {
-    return fmt::format("its <SRS> is \"{}\", it must be EPSG:4326 or EPSG:3857", srs);
   }
   return std::nullopt;
 }
@@ -89,7 +93,8 @@ bool is_safe_folder(const std::string& name) {
   return !name.empty() && name.size() <= 64 && name.find('/') == std::string::npos && name != "." && name != "..";
 }
 
-Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double tile_units, const std::string& where) {
+Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double tile_units, bool must_halve,
+                                          const std::string& where) {
   std::vector<TmsLevel> levels;
   for (const pugi::xml_node set : sets.children("TileSet")) {
     if (levels.size() == kMaxTileSets) return Error{fmt::format("{}: more than {} <TileSet>s", where, kMaxTileSets)};
@@ -103,7 +108,7 @@ Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double til
   }
   if (levels.empty()) return Error{where + ": no <TileSet>, so it has no levels"};
   std::sort(levels.begin(), levels.end(), [](const TmsLevel& a, const TmsLevel& b) { return a.span_deg > b.span_deg; });
-  for (std::size_t i = 1; i < levels.size(); ++i) {
+  for (std::size_t i = 1; must_halve && i < levels.size(); ++i) {
     if (!near(levels[i - 1].span_deg, 2.0 * levels[i].span_deg, 1e-6)) {
       return Error{fmt::format("{}: the tile of level \"{}\" spans {}°, that of \"{}\" {}°: levels must halve", where,
                                levels[i - 1].folder, levels[i - 1].span_deg, levels[i].folder, levels[i].span_deg)};
@@ -158,6 +163,23 @@ std::optional<ImageFormat> format_of_extension(std::string_view extension) {
   return static_cast<ImageFormat>(found - kImageFormatNames.begin());
 }
 
+/// Completes the description of a set in a coordinate system of its own.
+Result<TmsDescription> projected_tms_of(const pugi::xml_node& map, TmsDescription tms, const std::string& where) {
+  const auto levels = read_levels(map.child("TileSets"), 1.0, false, where);
+  if (!levels) return levels.error();
+  std::vector<TmsUnits> units;
+  units.reserve(levels->size());
+  for (const TmsLevel& level : *levels) {
+    tms.folder[static_cast<int>(units.size())] = level.folder;
+    units.push_back({level.span_deg, level.folder});
+  }
+  if (Status placed = place_tms_levels(map, units, tms.info); !placed) {
+    return Error{fmt::format("{}: its <SRS> \"{}\": {}", where, std::string(map.child_value("SRS")).substr(0, 100),
+                             placed.error().message)};
+  }
+  return tms;
+}
+
 }  // namespace
 
 Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& where) {
@@ -186,8 +208,10 @@ Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& w
   tms.info.grid.tile_px = static_cast<int>(width);
   tms.info.grid.bounds = read_bounds(map);
   if (is_mercator(map)) tms.info.grid.projection = Projection::web_mercator;
+  if (is_projected(map)) return projected_tms_of(map, std::move(tms), where);
   const double unit_deg = is_mercator(map) ? 1.0 / kMercatorDegree_m : 1.0;
-  Result<std::vector<TmsLevel>> levels = read_levels(map.child("TileSets"), tms.info.grid.tile_px * unit_deg, where);
+  Result<std::vector<TmsLevel>> levels =
+      read_levels(map.child("TileSets"), tms.info.grid.tile_px * unit_deg, true, where);
   if (!levels) return levels.error();
   if (Status assigned = assign_levels(*std::move(levels), tms, where); !assigned) return assigned.error();
   if (Status grid = check_grid(tms.info.grid, where); !grid) return grid.error();

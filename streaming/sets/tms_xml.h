@@ -19,9 +19,9 @@ struct TmsDescription {
   std::map<int, std::string> folder;  ///< folder of each level of the grid, from `href`
 };
 
-/// Reads a tilemapresource.xml, geodetic or in Web Mercator. A TMS counts rows from -90°. Levels whose tiles do not
-/// divide 180° (level 0 of a set with one root tile) do not lie on a TileGrid and are left out. The error begins with
-/// `where`. thread: any
+/// Reads a tilemapresource.xml, geodetic, in Web Mercator or in another system (tms_projected.h). A TMS counts rows
+/// from -90°. Levels whose tiles do not divide 180° (level 0 of a set with one root tile) do not lie on a TileGrid and
+/// are left out. The error begins with `where`. thread: any
 [[nodiscard]] Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& where);
 
 }  // namespace terrella

@@ -21,24 +21,50 @@ WarpFigure figure_of(const TileGrid& grid) {
   return {.ellipsoid = earth().ellipsoid, .latitude = grid.latitude, .crs_latitude = grid.latitude};
 }
 
+/// The options by which a set in a `projected` grid is warped. The error is the reason alone.
+Result<WarpOptions> options_of_projected(const TileSetInfo& info) {
+  const Result<Body> body = parse_body(info.body.empty() ? "earth" : info.body);
+  if (!body) return body.error();
+  return WarpOptions{.figure = {.ellipsoid = body->ellipsoid}, .body = info.body, .tile_px = info.grid.tile_px};
+}
+
+/// Inserts the stored tiles of which a tile is made.
+void insert_stored(const TileGrid& stored, const TilePlanner& planner, const WarpPlan& plan, std::set<TileId>& tiles) {
+  for (const WarpPiece& piece : plan.pieces) {
+    const int level = planner.frame().levels[static_cast<std::size_t>(piece.id.level)].stored;
+    const TileId tile{.level = level + stored.min_level, .x = piece.id.x, .y = piece.id.y};
+    if (exists(stored, tile)) tiles.insert(tile);
+  }
+}
+
+/// The stored tiles of which tiles are made.
+Result<std::set<TileId>> planned_tiles(const TileGrid& stored, TilePlanner& planner, std::span<const TileId> tiles) {
+  std::set<TileId> found;
+  for (const TileId& id : tiles) {
+    const auto plan = planner.plan(id);
+    if (!plan) return Error{plan.error().why};
+    insert_stored(stored, planner, *plan, found);
+  }
+  return found;
+}
+
 /// Warps a set in a `projected` grid.
 Result<std::unique_ptr<TileSource>> geodetic_of_projected(std::unique_ptr<TileSource> stored,
                                                           const std::string& where) {
   TileSetInfo info = stored->info();
   const int first_level = info.grid.min_level;
-  const Result<Body> body = parse_body(info.body.empty() ? "earth" : info.body);
-  if (!body) return Error{where + ": " + body.error().message};
+  const auto options = options_of_projected(info);
+  if (!options) return Error{where + ": " + options.error().message};
   auto raster = raster_of_tiles(std::move(stored));
-  const WarpOptions options{.figure = {.ellipsoid = body->ellipsoid}, .body = info.body, .tile_px = info.grid.tile_px};
-  const auto grid = warp_grid(raster->info(), options, where);
+  const auto grid = warp_grid(raster->info(), *options, where);
   if (!grid) return grid.error();
-  auto planner = TilePlanner::open(raster->info(), options.figure, *grid, Overviews::made);
+  auto planner = TilePlanner::open(raster->info(), options->figure, *grid, Overviews::made);
   if (!planner) return Error{where + ": " + planner.error().message};
   info.made_of = info.grid;
   info.grid = *grid;
   if (info.numbers) info.numbers = decoded(*info.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info),
-                          {.noun = "stored tile", .first_level = first_level}, options.decoded_bytes);
+                          {.noun = "stored tile", .first_level = first_level}, options->decoded_bytes);
 }
 
 }  // namespace
@@ -65,16 +91,27 @@ Result<std::set<TileId>> stored_tiles_of(const TileGrid& mercator, std::span<con
   const RasterInfo raster = raster_info_of(set);
   auto planner = TilePlanner::open(raster, figure_of(mercator), geodetic_grid_of(mercator), Overviews::stored);
   if (!planner) return planner.error();
-  std::set<TileId> stored;
-  for (const TileId& id : geodetic) {
-    const auto plan = (*planner)->plan(id);
-    if (!plan) return Error{plan.error().why};
-    for (const WarpPiece& piece : plan->pieces) {
-      const TileId tile{.level = piece.id.level + mercator.min_level, .x = piece.id.x, .y = piece.id.y};
-      if (exists(mercator, tile)) stored.insert(tile);
-    }
-  }
-  return stored;
+  return planned_tiles(mercator, **planner, geodetic);
+}
+
+Result<TileGrid> drawn_grid_of(const TileSetInfo& stored) {
+  if (stored.grid.projection == Projection::web_mercator) return geodetic_grid_of(stored.grid);
+  if (stored.grid.projection != Projection::projected) return stored.grid;
+  const auto options = options_of_projected(stored);
+  if (!options) return options.error();
+  return warp_grid(raster_info_of(stored), *options, "its grid");
+}
+
+Result<std::set<TileId>> stored_tiles_of(const TileSetInfo& stored, std::span<const TileId> drawn) {
+  if (stored.grid.projection == Projection::web_mercator) return stored_tiles_of(stored.grid, drawn);
+  if (stored.grid.projection != Projection::projected) return std::set<TileId>(drawn.begin(), drawn.end());
+  const auto options = options_of_projected(stored);
+  if (!options) return options.error();
+  const auto grid = drawn_grid_of(stored);
+  if (!grid) return grid.error();
+  auto planner = TilePlanner::open(raster_info_of(stored), options->figure, *grid, Overviews::made);
+  if (!planner) return planner.error();
+  return planned_tiles(stored.grid, **planner, drawn);
 }
 
 Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stored, const std::string& where) {

@@ -20,6 +20,13 @@ namespace terrella {
 /// Returns the stored tiles of which tiles of geodetic_grid_of(mercator) are made. thread: any
 [[nodiscard]] Result<std::set<TileId>> stored_tiles_of(const TileGrid& mercator, std::span<const TileId> geodetic);
 
+/// Returns the grid in which a set is drawn: its own, geodetic_grid_of(), or that of warp_grid() for a `projected` set.
+/// The error is the reason alone. thread: any
+[[nodiscard]] Result<TileGrid> drawn_grid_of(const TileSetInfo& stored);
+
+/// Returns the stored tiles of which tiles of drawn_grid_of(stored) are made, for any set. thread: any
+[[nodiscard]] Result<std::set<TileId>> stored_tiles_of(const TileSetInfo& stored, std::span<const TileId> drawn);
+
 /// Makes a geodetic tile set (geodetic_grid_of()) from a set in Web Mercator, local or remote, pictures or heights. The
 /// stored tiles are a raster in EPSG:3857 (warp_source.h describes missing tiles). Tiles beyond ±85.05° are
 /// transparent: the layer below shows, or the globe's plain colour. The reason of a missing tile names the stored tile.

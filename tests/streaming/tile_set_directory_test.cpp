@@ -119,7 +119,7 @@ TEST(OpenTileSet, NamesTheFileAndFieldOfABadDescription) {
   test::write_text(folder / "set/tileset.json", "{\"root_span_deg\": 180}");
   expect_says(error_of(folder / "set"), {"set/tileset.json", "tile_px", "missing"});
   test::write_text(folder / "tms/tilemapresource.xml", "<TileMap><SRS>EPSG:31467</SRS></TileMap>");
-  expect_says(error_of(folder / "tms"), {"tms/tilemapresource.xml", "EPSG:31467", "EPSG:4326 or EPSG:3857"});
+  expect_says(error_of(folder / "tms"), {"tms/tilemapresource.xml", "TileFormat", "width"});
 }
 
 }  // namespace

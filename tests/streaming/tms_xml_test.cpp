@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 namespace terrella {
 namespace {
@@ -92,6 +94,33 @@ TEST(TmsXml, WhatIsNoTileMapIsRefused) {
   EXPECT_FALSE(parse_tms_xml("<TileMap", "here"));
   EXPECT_FALSE(parse_tms_xml("<a/>", "here"));
   EXPECT_FALSE(parse_tms_xml(std::string(kMaxTmsXmlBytes + 1, ' '), "here"));
+}
+
+TEST(TmsXml, AnySystemBeginsAtItsOrigin) {
+  const auto with = [](const std::string& srs, const std::string& origin, const std::string& levels) {
+    return parse_tms_xml("<TileMap><SRS>" + srs + R"(</SRS><BoundingBox minx="0" miny="0" maxx="5000" maxy="3000"/>)" +
+                             origin +
+                             R"(<TileFormat width="256" height="256" extension="png"/><TileSets profile="raster">)" +
+                             levels + "</TileSets></TileMap>",
+                         "here");
+  };
+  const std::string origin = R"(<Origin x="-1000" y="-2000"/>)";
+  const std::string levels = R"(<TileSet href="0" units-per-pixel="20"/><TileSet href="1" units-per-pixel="8"/>)";
+  const auto tms = with("EPSG:3031", origin, levels);
+  ASSERT_TRUE(tms) << tms.error().message;
+  ASSERT_TRUE(tms->info.square);
+  // 6000 by 5000 m in tiles of 5120 and 2048 m, rows from the south.
+  const CrsLevel coarse{.west = -1000, .north = 3120, .unit_per_px = 20, .columns = 2, .rows = 1};
+  const CrsLevel fine{.west = -1000, .north = 4144, .unit_per_px = 8, .columns = 3, .rows = 3};
+  EXPECT_EQ(tms->info.square->levels, (std::vector{coarse, fine}));
+  EXPECT_EQ(tms->folder, (std::map<int, std::string>{{0, "0"}, {1, "1"}}));
+  const auto refusal = [&](const auto& read) { return read ? std::string("read") : read.error().message; };
+  EXPECT_NE(refusal(with("EPSG:3031", "", levels)).find("<Origin>"), std::string::npos);
+  EXPECT_NE(refusal(with("EPSG:3031", R"(<Origin x="nan" y="0"/>)", levels)).find("<Origin>"), std::string::npos);
+  EXPECT_NE(refusal(with("EPSG:3031", R"(<Origin x="9000" y="0"/>)", levels)).find("ends before"), std::string::npos);
+  EXPECT_NE(refusal(with("EPSG:999999", origin, levels)).find("EPSG:999999"), std::string::npos);
+  const std::string tiny = R"(<TileSet href="0" units-per-pixel="1e-300"/>)";
+  EXPECT_NE(refusal(with("EPSG:3031", origin, tiny)).find("too many tiles"), std::string::npos);
 }
 
 }  // namespace

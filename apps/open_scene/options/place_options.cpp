@@ -53,16 +53,15 @@ std::string bounds_text(const CrsBounds& bounds) {
 
 void add_place_options(CLI::App& command, PlaceWords& words) {
   command
-      .add_option(
-          "--crs", words.crs,
-          "Set the coordinate system of a picture that does not state it, or states a wrong one: a code, a PROJ "
-          "string or WKT")
+      .add_option("--crs", words.crs,
+                  "Set the coordinate system of a picture that does not state it, or states a wrong one, or of a URL "
+                  "template's "
+                  "tiles: a code, a PROJ string or WKT")
       ->type_name("CRS");
   CLI::Option* bounds = command.add_option_function<std::string>(
       "--bounds", [&words](const std::string& text) { words.bounds = parsed_or_throw("--bounds", parse_bounds(text)); },
       "Set a picture's bounds, in degrees (W > E crosses 180) or in units of --crs (default: as stated by the picture "
-      "or "
-      "files beside it, else the whole planet)");
+      "or files beside it, else the whole planet); with --crs also those of a URL template's tiles");
   bounds->type_name("W,S,E,N");
   command.add_option("--west", words.west_deg, "Set the longitude at which a picture of the whole planet begins")
       ->check(number_in(-kMostLongitude_deg, kMostLongitude_deg))

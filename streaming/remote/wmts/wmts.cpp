@@ -96,20 +96,23 @@ Result<WmtsLayer> find_layer(const pugi::xml_node& contents, const std::string& 
   return Error{fmt::format("it has no layer \"{}\"; its layers: {}", wanted, list_of(names))};
 }
 
-Result<WmtsGrid> read_grid(const pugi::xml_node& contents, const WmtsLink& link, const RemoteOptions& options) {
+Result<WmtsGrid> read_grid(const pugi::xml_node& contents, const WmtsLink& link, const std::optional<GeoRect>& bounds,
+                           const RemoteOptions& options) {
   for (const pugi::xml_node& node : children_of(contents, "TileMatrixSet")) {
     if (text_of(node, "Identifier") != link.matrix_set) continue;
     const Result<WmtsMatrixSet> set = read_matrix_set(node);
     if (!set) return set.error();
-    return grid_of(*set, link.limits, options.body);
+    return grid_of(*set, link.limits, options.body, bounds);
   }
   return Error{"the document does not describe it"};
 }
 
-/// True if this kind of matrix set is preferred: the requested projection, else longitude and latitude.
-bool is_wanted(const TileGrid& grid, const RemoteOptions& options) {
+/// Rank of a kind of matrix set: 0 for the requested projection, else for longitude and latitude. Then comes Web
+/// Mercator, then other systems.
+int rank_of(const TileGrid& grid, const RemoteOptions& options) {
+  if (grid.projection == Projection::projected) return 2;
   const bool mercator = grid.projection == Projection::web_mercator;
-  return mercator == (options.projection == Projection::web_mercator);
+  return mercator == (options.projection == Projection::web_mercator) ? 0 : 1;
 }
 
 struct ChosenGrid {
@@ -120,21 +123,22 @@ struct ChosenGrid {
 Result<ChosenGrid> choose_grid(const pugi::xml_node& contents, const WmtsLayer& layer, const RemoteOptions& options) {
   std::vector<std::string> names;
   std::string reasons;
-  std::optional<ChosenGrid> resampled;
+  std::optional<ChosenGrid> best;
+  const auto rank = [&](const WmtsGrid& placed) { return rank_of(placed.grid, options); };
   for (const WmtsLink& link : layer.links) {
     names.push_back(link.matrix_set);
     if (!options.matrix_set.empty() && link.matrix_set != options.matrix_set) continue;
-    Result<WmtsGrid> placed = read_grid(contents, link, options);
-    if (placed && is_wanted(placed->grid, options)) return ChosenGrid{*std::move(placed), link.matrix_set};
+    Result<WmtsGrid> placed = read_grid(contents, link, layer.bounds, options);
     if (placed) {
-      if (!resampled) resampled = ChosenGrid{*std::move(placed), link.matrix_set};
+      if (!best || rank(*placed) < rank(best->placed)) best = ChosenGrid{*std::move(placed), link.matrix_set};
+      if (rank(best->placed) == 0) break;
       continue;
     }
     if (names.size() <= 20) {
       reasons += fmt::format("; matrix set \"{}\": {}", link.matrix_set.substr(0, 100), placed.error().message);
     }
   }
-  if (resampled) return *std::move(resampled);
+  if (best) return *std::move(best);
   if (!reasons.empty()) return Error{fmt::format("layer \"{}\" cannot be shown{}", layer.name, reasons)};
   return Error{
       fmt::format("layer \"{}\" has no matrix set \"{}\"; it has: {}", layer.name, options.matrix_set, list_of(names))};
@@ -209,6 +213,9 @@ GeoRect narrowed(const GeoRect& tiles, const std::optional<GeoRect>& box) {
 
 /// Checks the user's options against the document's grid. Options may narrow the levels, but not change the grid.
 Status check_against(const RemoteOptions& options, TileGrid& grid) {
+  if (options.root_span_deg && grid.projection == Projection::projected) {
+    return Error{"its tiles are in a coordinate system of their own, where ‹root_span_deg› has no meaning"};
+  }
   if (options.root_span_deg && std::abs(*options.root_span_deg / grid.root_span_deg - 1.0) > 1e-9) {
     return Error{fmt::format("its root tile spans {}°, not the {}° that were given", grid.root_span_deg,
                              *options.root_span_deg)};
@@ -242,7 +249,8 @@ Result<RemoteTileSet> describe_layer(const pugi::xml_node& capabilities, const R
   RemoteTileSet set;
   set.url = *url;
   set.info.grid = chosen->placed.grid;
-  set.info.grid.bounds = narrowed(set.info.grid.bounds, layer->bounds);
+  set.info.square = chosen->placed.square;
+  if (!set.info.square) set.info.grid.bounds = narrowed(set.info.grid.bounds, layer->bounds);
   set.info.format = format->format;
   set.info.name = (layer->title.empty() ? layer->name : layer->title).substr(0, kMaxOgcTextBytes);
   set.info.attribution = text_of(child_of(capabilities, "ServiceProvider"), "ProviderName").substr(0, kMaxOgcTextBytes);

@@ -9,6 +9,7 @@
 #include "geo/body.h"
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
+#include "streaming/remote/wmts/wmts_projected.h"
 #include "tiles/grid_ranges.h"
 #include "tiles/tile_range.h"
 
@@ -172,15 +173,6 @@ struct Placing {
   }
 };
 
-/// The limits of a matrix. Some servers write the name of the set before that of the matrix, as "set:0".
-const WmtsLimits* limits_of(const std::vector<WmtsLimits>& limits, const std::string& matrix) {
-  auto found = std::ranges::find(limits, matrix, &WmtsLimits::matrix);
-  if (found == limits.end()) {
-    found = std::ranges::find_if(limits, [&](const WmtsLimits& one) { return one.matrix.ends_with(":" + matrix); });
-  }
-  return found == limits.end() ? nullptr : &*found;
-}
-
 /// Chooses the matrices that become levels. They must lie on whole tiles and be listed in the limits, if there are any.
 /// Without limits they must have all the tiles of the finest matrix.
 Status choose_levels(const Placing& placing, const std::vector<WmtsLimits>& limits, TileGrid& grid) {
@@ -226,11 +218,16 @@ void name_levels(const Placing& placing, WmtsGrid& placed) {
 }  // namespace
 
 Result<WmtsGrid> grid_of(const WmtsMatrixSet& set, const std::vector<WmtsLimits>& limits,
-                         const std::optional<std::string>& body) {
+                         const std::optional<std::string>& body, const std::optional<GeoRect>& bounds) {
   const bool mercator = is_web_mercator(set.crs);
   const Result<GeographicCrs> crs = mercator ? GeographicCrs{.body = "earth"} : parse_crs(set.crs);
-  if (!crs) return crs.error();
-  if (const auto fault = fault_among(set.matrices)) return Error{*fault};
+  if (!crs) return projected_grid_of(set, limits, bounds);
+  if (const auto fault = fault_among(set.matrices)) {
+    // Servers count the degrees of other bodies in two ways, of which only whole planets tell.
+    if (crs->body != "earth" || body) return Error{*fault};
+    Result<WmtsGrid> own = projected_grid_of(set, limits, bounds);
+    return own ? own : Error{*fault};
+  }
   WmtsGrid placed;
   placed.body = body.value_or(crs->body);
   const WmtsMatrix& finest = set.matrices.back();

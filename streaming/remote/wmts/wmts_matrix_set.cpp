@@ -56,12 +56,29 @@ Result<WmtsMatrix> read_matrix(const pugi::xml_node& node) {
   return matrix;
 }
 
+std::optional<WmtsBox> read_box(const pugi::xml_node& node) {
+  const pugi::xml_node box = child_of(node, "BoundingBox");
+  const auto low = to_pair(text_of(box, "LowerCorner"));
+  const auto high = to_pair(text_of(box, "UpperCorner"));
+  return low && high ? std::optional(WmtsBox{*low, *high}) : std::nullopt;
+}
+
 }  // namespace
+
+const WmtsLimits* limits_of(const std::vector<WmtsLimits>& limits, const std::string& matrix) {
+  auto found = std::ranges::find(limits, matrix, &WmtsLimits::matrix);
+  if (found == limits.end()) {
+    found = std::ranges::find_if(limits, [&](const WmtsLimits& one) { return one.matrix.ends_with(":" + matrix); });
+  }
+  return found == limits.end() ? nullptr : &*found;
+}
 
 Result<WmtsMatrixSet> read_matrix_set(const pugi::xml_node& node) {
   WmtsMatrixSet set{.name = std::string(text_of(node, "Identifier")),
                     .crs = std::string(text_of(node, "SupportedCRS")),
-                    .matrices = {}};
+                    .matrices = {},
+                    .box = {}};
+  set.box = read_box(node);
   for (const pugi::xml_node& matrix : children_of(node, "TileMatrix")) {
     if (set.matrices.size() == kMaxMatrices) return Error{fmt::format("more than {} matrices", kMaxMatrices)};
     Result<WmtsMatrix> read = read_matrix(matrix);

@@ -21,11 +21,17 @@ struct WmtsMatrix {
   std::int64_t rows = 0;
 };
 
+/// A <BoundingBox> as written.
+struct WmtsBox {
+  std::pair<double, double> low{}, high{};
+};
+
 /// A <TileMatrixSet> of the contents, coarsest matrix first.
 struct WmtsMatrixSet {
   std::string name{};
   std::string crs{};  ///< SupportedCRS as written
   std::vector<WmtsMatrix> matrices{};
+  std::optional<WmtsBox> box{};
 };
 
 /// A <TileMatrixLimits>: tiles of a matrix in a layer, first and last included.
@@ -36,6 +42,10 @@ struct WmtsLimits {
 
 /// Reads a <TileMatrixSet>. The error is the reason alone, without the name of document or set. thread: any
 [[nodiscard]] Result<WmtsMatrixSet> read_matrix_set(const pugi::xml_node& node);
+
+/// The limits of a matrix; null if there are none. Some servers write the name of the set before that of the matrix, as
+/// "set:0". thread: any
+[[nodiscard]] const WmtsLimits* limits_of(const std::vector<WmtsLimits>& limits, const std::string& matrix);
 
 /// Reads the limits of a <TileMatrixSetLink>. Skips limits that are not numbers. thread: any
 [[nodiscard]] std::vector<WmtsLimits> read_limits(const pugi::xml_node& link);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tiles/tile_source.h"
+
+namespace terrella {
+
+/// Gives a set levels with places of their own: its square, which begins at the finest level's corner, and a
+/// `projected` grid that has at least their numbers of tiles. Keeps the tile size. thread: any
+void place_own_levels(const std::string& crs, std::vector<CrsLevel> levels, TileSetInfo& info);
+
+/// Number of tiles of a level along its longer side. thread: any
+[[nodiscard]] std::int64_t longer_side(const CrsLevel& level);
+
+/// `tiles` divided by 2^times, rounded up. thread: any
+[[nodiscard]] std::int64_t halved_up(std::int64_t tiles, std::size_t times);
+
+}  // namespace terrella
