@@ -31,15 +31,15 @@ namespace terrella {
 
 /// The instants of an image layer, in UTC. None: its source knows no time (TileSetInfo::instant).
 struct LayerTime {
-  std::optional<UtcTime> shown{};   ///< of the tiles on the screen
-  std::optional<UtcTime> coming{};  ///< of the tiles that will take their place; none: no others are on their way
+  std::optional<UtcTime> shown{};   ///< the tiles on the screen
+  std::optional<UtcTime> coming{};  ///< the tiles on their way to replace them; none: there are no such tiles
 };
 
 /// An instant of which an image layer had no tile in view.
 struct MissingInstant {
   LayerId layer = LayerId::none;
   UtcTime instant{};
-  std::string why;  ///< of one of its tiles
+  std::string why;  ///< reason of one missing tile
 };
 
 /// A globe that draws image layers, heights and objects as a camera sees them into a framebuffer. It is made in a

@@ -35,7 +35,7 @@ struct RemoteTileSet {
   /// Template with {z}, {x}, {y} (rows from the north) or {-y} (from the south), and {s} (one of `subdomains`). {row}
   /// and {col} are other names of {y} and {x}. {z} may stand for `level_names`. {q} is Bing's quadkey of all three.
   /// {bbox} are the tile's corners in the units of the grid's reference system, as WMS wants them.
-  /// {time} is info.time as the service writes it; {time:FORMAT} is info.instant (tile_set_time.h).
+  /// {time} is info.time as the service writes it; {time:FORMAT} is info.instant by strftime's codes.
   Url url{};
   bool northing_first = false;  ///< in {bbox}
   std::vector<std::string> subdomains{};
