@@ -15,7 +15,9 @@ import servers  # noqa: E402
 
 COLOURS = [(200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 0)]
 DATES = [f"2020-01-{day:02}" for day in range(1, 1 + len(COLOURS))]
-AT = (SIZE[0] // 2, SIZE[1] - 60)  # on the globe, under the panel and over the status line
+BUTTONS = {"First": 30, "Back": 77, "Play": 125, "Next": 173, "Last": 220}  # from the panel's left edge
+ROW = 84  # of the buttons, from the panel's upper edge
+AT = (SIZE[0] // 2, 300)  # on the globe, under the panel and over messages
 
 
 class Timeline(WindowTest):
@@ -35,6 +37,12 @@ class Timeline(WindowTest):
 
     def begin(self, **more):
         return self.start(self.set, "--unlit", "--camera", "0,0,1000000", **more)
+
+    def press(self, viewer, button):
+        viewer.panel("Dates")
+        viewer.settled()
+        left, top, *_ = viewer.panel("Dates")
+        viewer.click(left + BUTTONS[button], top + ROW)
 
     def shows(self, viewer, name, day):
         """Waits for a date's colour."""
@@ -61,6 +69,24 @@ class Timeline(WindowTest):
         self.shows(viewer, "played to", 2)
         self.press(viewer, "Play")
         self.assertEqual(len(self.server.log()), asked, "dates that were shown are not asked for again")
+
+    def test_the_date_is_kept_and_returns(self):
+        viewer = self.begin()
+        viewer.key("a")
+        self.press(viewer, "First")
+        self.shows(viewer, "first", 0)
+        viewer.key("a")
+        viewer.quit()
+        session = json.loads((self.kept / "terrella" / "session.terrella").read_text(encoding="utf-8"))
+        self.assertEqual(session["layers"][0]["layer-time"], DATES[0])
+        self.shows(self.start(bare=False), "returned", 0)
+
+    def test_a_picture_without_dates_has_no_panel(self):
+        viewer = self.start("--unlit")
+        plain = viewer.settled()
+        viewer.key("a")
+        self.assertNotEqual(viewer.settled(), plain, "a message says what is missing")
+        self.assertNotIn("Dates", viewer.layout.panels)
 
 
 if __name__ == "__main__":
