@@ -17,6 +17,7 @@
 #include "apps/preload/preload_report.h"
 #include "apps/preload/preload_room.h"
 #include "apps/preload/preload_source.h"
+#include "apps/preload/preload_times.h"
 #include "apps/process/console.h"
 #include "apps/process/open_files.h"
 #include "apps/process/stop_signals.h"
@@ -34,6 +35,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
     "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
+    "  terrella preload wmts.json --times 2026-06-01/2026-06-30/P1D --bbox 5,43,17,49 -o june.gpkg\n"
     "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
 
@@ -128,18 +130,25 @@ int release(const PreloadCommand& command, const PreloadSource& source, const Ti
   return kDone;
 }
 
-int forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+/// `sample`: as taken of an instant before; none: takes one.
+Result<PreloadForecast> forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan,
+                                 const std::optional<SizeSample>& sample = {}) {
   PreloadForecast forecast{.levels = plan.counts(), .sample = {}, .no_room = {}};
   const auto held = count_held(command, source, plan);
-  if (!held) return fail("preload", held.error().message);
+  if (!held) return held.error();
   forecast.there = held->there;
   forecast.rate = command.http.rate_per_host;
   forecast.jobs = command.http.connections_per_host;
   if (!command.offline) {
-    forecast.sample = take_sample(source, plan);
+    forecast.sample = sample ? *sample : take_sample(source, plan);
     forecast.no_room = find_no_room(command, plan, need_of(command, source, plan, *held), forecast.sample);
   }
-  print_result("{}", command.json ? to_json(forecast) : to_text(forecast));
+  return forecast;
+}
+
+int print_forecast(const PreloadCommand& command, const Result<PreloadForecast>& forecast) {
+  if (!forecast) return fail("preload", forecast.error().message);
+  print_result("{}", command.json ? to_json(*forecast) : to_text(*forecast));
   return kDone;
 }
 
@@ -187,13 +196,19 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
   return kDoneInPart;
 }
 
-int bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+/// A preload that was done, wholly or in part.
+struct Brought {
+  PreloadReport report;
+  bool has_wrong_grid = false;
+};
+
+Result<Brought> bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   auto missing = MissingReport::open(command.missing_file);
-  if (!missing) return fail("preload", missing.error().message);
+  if (!missing) return missing.error();
   auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
-  if (!stored) return fail("preload", stored.error().message);
+  if (!stored) return stored.error();
   const auto cache = cache_of(command, source);
-  if (!cache) return fail("preload", cache.error().message);
+  if (!cache) return cache.error();
   PreloadOptions options = preload_options(command, source);
   options.on_missing = [&](const TileId& id, PreloadMissing kind, const std::string& why) {
     missing->add(id, kind, why);
@@ -209,14 +224,18 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
     };
     result = preload(plan, **cache, source.make_origin, options);
   }
-  if (!result) return fail("preload", result.error().message + "; the same command goes on");
+  if (!result) return Error{result.error().message + "; the same command goes on"};
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  const PreloadReport report{command.output, *result, missing->groups(), seconds};
-  print_result("{}", command.json ? to_json(report) : to_text(report));
   for (const Status& listed : {missing->close(), stored->close()}) {
-    if (!listed) return fail("preload", listed.error().message);
+    if (!listed) return listed.error();
   }
-  if (has_wrong_grid(source, plan, **cache, *result)) {
+  return Brought{.report = {command.output, {}, *result, missing->groups(), seconds},
+                 .has_wrong_grid = has_wrong_grid(source, plan, **cache, *result)};
+}
+
+/// Reports what is wrong with a run to the user and returns the exit code.
+int judge(const PreloadCommand& command, const Brought& brought) {
+  if (brought.has_wrong_grid) {
     print_message(
         "terrella preload: {}: the server has no tile in the eastern half of the planet, and all in the western; most "
         "likely its level 0 has one column, as Web Mercator has: preload into another file with --projection "
@@ -224,7 +243,86 @@ int bring(const PreloadCommand& command, const PreloadSource& source, const Tile
         command.source.redacted());
     return kDoneInPart;
   }
-  return conclude(command, *result);
+  return conclude(command, brought.report.result);
+}
+
+int bring_and_tell(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  const auto brought = bring(command, source, plan);
+  if (!brought) return fail("preload", brought.error().message);
+  print_result("{}", command.json ? to_json(brought->report) : to_text(brought->report));
+  return judge(command, *brought);
+}
+
+/// A preload of several instants, one after the other.
+class ManyTimes {
+ public:
+  ManyTimes(const PreloadCommand& command, const PreloadSource& source, const HttpOptions& http, const TilePlan& plan)
+      : command_(command), source_(source), http_(http), plan_(plan) {}
+
+  int run(const std::vector<UtcTime>& instants, std::optional<WaitLimit>& limit) {
+    if (command_.dry_run) return print_forecast(command_, forecast_all(instants));
+    int code = kDone;
+    for (const UtcTime instant : instants) {
+      const auto source = source_at(source_, instant, http_);
+      if (!source) return fail("preload", source.error().message);
+      const int one = load(command_at(command_, source->set.info.time), *source, limit);
+      if (one == kFailed) return one;
+      if (one != kDone) code = one;
+      if (ends_) break;
+    }
+    if (command_.json && !command_.release) print_result("{}", to_json(reports_));
+    return code;
+  }
+
+ private:
+  Result<PreloadForecast> forecast_all(const std::vector<UtcTime>& instants) {
+    PreloadForecast all{.levels = {}, .sample = {}, .no_room = {}};
+    std::optional<SizeSample> sample;
+    for (const UtcTime instant : instants) {
+      const auto source = source_at(source_, instant, http_);
+      if (!source) return source.error();
+      const auto one = forecast(command_at(command_, source->set.info.time), *source, plan_, sample);
+      if (!one) return one.error();
+      if (!sample) {
+        all.sample = one->sample;
+        all.rate = one->rate;
+        all.jobs = one->jobs;
+        sample = one->sample;
+      }
+      add(all, *one);
+    }
+    return all;
+  }
+
+  int load(const PreloadCommand& command, const PreloadSource& source, std::optional<WaitLimit>& limit) {
+    if (command.release) return release(command, source, plan_);
+    if (const Status room = check_room(command, source, plan_); !room) return fail("preload", room.error().message);
+    limit.reset();
+    auto brought = bring(command, source, plan_);
+    if (!brought) return fail("preload", brought.error().message);
+    brought->report.time = source.set.info.time;
+    if (command.json) {
+      reports_.push_back(brought->report);
+    } else {
+      print_result("{}", to_text(brought->report));
+    }
+    ends_ = brought->report.result.end != PreloadEnd::complete;
+    return judge(command, *brought);
+  }
+
+  const PreloadCommand& command_;
+  const PreloadSource& source_;
+  const HttpOptions& http_;
+  const TilePlan& plan_;
+  std::vector<PreloadReport> reports_;
+  bool ends_ = false;  ///< stopped, or the source is down
+};
+
+Result<std::vector<UtcTime>> instants_of(const PreloadCommand& command, const PreloadSource& source) {
+  if (command.times.empty()) return std::vector<UtcTime>();
+  const auto& steps = source.set.info.steps;
+  if (!steps) return Error{command.source.redacted() + ": no times are known of it; leave --times out"};
+  return preload_instants(command.times, *steps);
 }
 
 /// Reduces --jobs to the allowed open files; a connection that fails to open would look like a failing server.
@@ -258,14 +356,17 @@ int run(PreloadCommand& command) {
   if (!source) return fail("preload", source.error().message + WaitLimit::advice());
   if (!source->set.refuse_bulk.empty())
     return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
+  const auto instants = instants_of(command, *source);
+  if (!instants) return fail("preload", instants.error().message);
   auto plan = make_preload_plan(command, source->set.info);
   if (plan && source->plan_parts) plan = source->plan_parts(**plan);
   if (!plan) return fail("preload", plan.error().message + WaitLimit::advice());
+  if (!instants->empty()) return ManyTimes(command, *source, http, **plan).run(*instants, limit);
   if (command.release) return release(command, *source, **plan);
-  if (command.dry_run) return forecast(command, *source, **plan);
+  if (command.dry_run) return print_forecast(command, forecast(command, *source, **plan));
   if (const Status room = check_room(command, *source, **plan); !room) return fail("preload", room.error().message);
   limit.reset();
-  return bring(command, *source, **plan);
+  return bring_and_tell(command, *source, **plan);
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "apps/open_scene/open_cache.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -26,6 +29,15 @@ Result<std::shared_ptr<TileCache>, CacheOpenError> open_cache(const std::string&
                   (*cache)->set_aside().string());
   }
   return cache;
+}
+
+std::filesystem::path file_of_time(const std::filesystem::path& cache, const std::string& time) {
+  if (time.empty()) return cache;
+  std::string name = time;
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '.'; };
+  std::ranges::replace_if(
+      name, [&](unsigned char c) { return !is_plain(c); }, '-');
+  return cache.parent_path() / fmt::format("{}.{}{}", cache.stem().string(), name, cache.extension().string());
 }
 
 void say_without_cache(const Error& why) {

@@ -28,4 +28,7 @@ void say_without_cache(const Error& why);
 /// True if a file can be created in the folder; creates the folder if needed. thread: any
 [[nodiscard]] bool can_write_into(const std::filesystem::path& folder);
 
+/// The cache beside another one that holds its source at another time: a.2026-06-21.gpkg beside a.gpkg. thread: any
+[[nodiscard]] std::filesystem::path file_of_time(const std::filesystem::path& cache, const std::string& time);
+
 }  // namespace terrella

@@ -43,6 +43,14 @@ class DescribedSource : public TileSource {
   [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
     return tiles_->value_at(place, figure);
   }
+  [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
+    auto other = tiles_->at_time(time);
+    if (!other) return other.error();
+    TileSetInfo info = info_;
+    info.time = (*other)->info().time;
+    info.instant = (*other)->info().instant;
+    return std::unique_ptr<TileSource>(std::make_unique<DescribedSource>(*std::move(other), std::move(info)));
+  }
 
  private:
   std::shared_ptr<TileSource> tiles_;

@@ -21,6 +21,7 @@
 #include "streaming/cache/tile_cache.h"
 #include "streaming/remote/grid_check.h"
 #include "streaming/remote/remote_source.h"
+#include "streaming/remote/url_template.h"
 #include "streaming/sets/open_tile_set.h"
 #include "streaming/warp/web_mercator.h"
 
@@ -33,6 +34,10 @@ namespace fs = std::filesystem;
 // tiles.
 constexpr int kTemplateMaxLevel = 18;
 constexpr std::size_t kMaxNameBytes = 60;
+
+bool is_template(const SourceOptions& options) {
+  return options.address.with_secrets().find("{z}") != std::string::npos;
+}
 
 /// Makes a file name from the address without secrets, and a hash of the rest. A new key or password does not make a
 /// new source.
@@ -61,6 +66,18 @@ Result<fs::path> cache_file(const SourceOptions& options) {
   return *folder / cache_name(options);
 }
 
+/// The cache of a set at a time. The file that --cache names belongs to the time at which the set was opened, unless
+/// there is only one of that time as preload writes it; other times have files beside it.
+Result<fs::path> cache_file_at(SourceOptions options, const std::string& time, const std::string& opened) {
+  if (options.cache.empty()) {
+    if (time != opened) options.remote.time = time;
+    return cache_file(options);
+  }
+  const fs::path named = options.cache, dated = file_of_time(named, time);
+  std::error_code failed;
+  return time == opened && (time.empty() || fs::exists(named, failed) || !fs::exists(dated, failed)) ? named : dated;
+}
+
 /// Opens a TIFF on a server.
 Result<std::shared_ptr<TileSource>> open_tiff(const SourceOptions& options, const HttpOptions& http) {
   RemoteTiffWish wish{.source = options, .http = http};
@@ -84,9 +101,22 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SourceOptions& options, cons
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
-Result<std::shared_ptr<TileSource>> open_offline(const SourceOptions& options) {
-  if (options.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
-  const auto file = cache_file(options);
+/// The time of a URL template, and what was asked for of another set.
+Result<std::string> time_of(const SourceOptions& options) {
+  if (!is_template(options)) return options.remote.time;
+  RemoteOptions remote = options.remote;
+  if (!remote.max_level) remote.max_level = kTemplateMaxLevel;
+  const auto set = template_tile_set(options.address, remote, true, "tile set");
+  return set ? Result<std::string>(set->info.time) : set.error();
+}
+
+Result<std::shared_ptr<TileSource>> open_offline(const SourceOptions& named) {
+  if (named.cache == "off") return Error{"--offline needs a cache, and --cache is off"};
+  const auto time = time_of(named);
+  if (!time) return time.error();
+  SourceOptions options = named;
+  options.remote.time = *time;
+  const auto file = cache_file_at(options, *time, *time);
   if (!file) return file.error();
   std::error_code failed;
   if (!fs::exists(*file, failed)) {
@@ -115,10 +145,12 @@ std::shared_ptr<TileCache> go_without(const Error& why) {
   return nullptr;
 }
 
-/// Opens the cache; nullptr if the cache is off or not writable. Refuses a file of another kind.
-Result<std::shared_ptr<TileCache>> cache_of(const SourceOptions& options, const RemoteTileSet& set) {
+/// Opens the cache of a set at its time; nullptr if the cache is off or not writable. Refuses a file of another kind.
+/// `opened` is the time at which the set was opened.
+Result<std::shared_ptr<TileCache>> cache_of(const SourceOptions& options, const RemoteTileSet& set,
+                                            const std::string& opened) {
   if (options.cache == "off") return std::shared_ptr<TileCache>();
-  const auto file = cache_file(options);
+  const auto file = cache_file_at(options, set.info.time, opened);
   if (!file) return go_without(file.error());
   auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb, say_without_cache);
   if (!cache && cache.error().cannot_write) return go_without(cache.error());
@@ -130,10 +162,6 @@ bool knows_a_root(const std::shared_ptr<TileCache>& cache, const TileGrid& grid)
   if (cache == nullptr) return false;
   const auto root = cache->peek({grid.min_level, 0, 0});
   return root && *root;
-}
-
-bool is_template(const SourceOptions& options) {
-  return options.address.with_secrets().find("{z}") != std::string::npos;
 }
 
 /// Compares a few tiles of a URL template before the first picture, because a template states no grid. A wrong grid is
@@ -162,14 +190,20 @@ Result<std::shared_ptr<TileSource>> open_online(const SourceOptions& options) {
   }
   auto set = fetch_description(options.address, remote, http);
   if (!set) return set.error();
+  SourceOptions named = options;
+  if (is_template(options)) named.remote.time = set->info.time;
   http = within_limits(http, *set);
-  auto cache = cache_of(options, *set);
+  const OpenCache open_cache = [options = std::move(named), opened = set->info.time](const RemoteTileSet& other) {
+    return cache_of(options, other, opened);
+  };
+  auto cache = open_cache(*set);
   if (!cache) return cache.error();
   if (is_template(options) && !set->info.square && !knows_a_root(*cache, set->info.grid)) {
     if (const Status grid = check_template_grid(*set, http); !grid) return grid.error();
   }
   // The cache holds the tiles in the server's projection.
-  auto tiles = as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http), options.address.redacted());
+  auto tiles =
+      as_geodetic(make_remote_source(*std::move(set), *std::move(cache), http, open_cache), options.address.redacted());
   if (!tiles) return tiles.error();
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }

@@ -83,6 +83,16 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
       ->type_name("I/N");
 }
 
+void add_times_option(CLI::App& app, PreloadCommand& command) {
+  app.add_option(
+         "--times", command.times,
+         "Load these times of the layer, each into a cache of its own: CACHE.2026-06-21.gpkg; A/B: all from A to "
+         "B (default: one time, as --layer-time says)")
+      ->type_name("A/B/P1D[,...]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_network_options(CLI::App& app, PreloadCommand& command) {
   app.add_option("--jobs", command.http.connections_per_host, "Limit the connections to one host")
       ->check(whole_number_in(1, 64))
@@ -115,6 +125,7 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
       ->type_name("CACHE.gpkg");
   add_area_options(app, command);
   add_remote_set_options(app, command.remote);
+  add_times_option(app, command);
   add_choice<Projection>(app, "--projection", command.remote.projection,
                          {{"equirectangular", Projection::equirectangular},
                           {"equal-area", Projection::equal_area},
@@ -142,6 +153,9 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
 Status check_together(const PreloadCommand& command) {
   if (command.offline && !command.dry_run) {
     return Error{"--offline goes with --dry-run: without the network there is nothing to bring"};
+  }
+  if (!command.times.empty() && !command.remote.time.empty()) {
+    return Error{"--times and --layer-time: one at a time"};
   }
   if (command.release && command.dry_run) return Error{"--release and --dry-run: one at a time"};
   if (!command.flight.empty() && (!command.boxes.empty() || !command.polygons.empty())) {

@@ -30,6 +30,7 @@ struct PreloadCommand {
   std::string flight;
   Viewport size{.width_px = 1920, .height_px = 1080};
   std::optional<Shard> shard;
+  std::vector<std::string> times;  ///< instants to load (preload_instants()); empty: that of the source
   RemoteOptions remote;
   HttpOptions http;
   double timeout_s = 600.0;  ///< longest wait for a server before the first tile is requested

@@ -75,7 +75,9 @@ std::string to_text(const PreloadReport& report) {
   return text;
 }
 
-std::string to_json(const PreloadReport& report) {
+namespace {
+
+json object_of(const PreloadReport& report) {
   const PreloadCounts& c = report.result.counts;
   json missing = json::array();
   for (const MissingReport::Group& group : report.missing) {
@@ -84,25 +86,43 @@ std::string to_json(const PreloadReport& report) {
                        {"tiles", group.tiles},
                        {"first", tile_name(group.first)}});
   }
-  return text_of({{"output", report.output},
-                  {"end", end_name(report.result.end)},
-                  {"planned", c.planned},
-                  {"stored", c.stored},
-                  {"stored_bytes", c.stored_bytes},
-                  {"there", c.there},
-                  {"unchanged", c.unchanged},
-                  {"absent", c.absent},
-                  {"blank", c.blank},
-                  {"broken", c.broken},
-                  {"refused", c.refused},
-                  {"failed", c.failed},
-                  {"no_room", c.no_room},
-                  {"kept", c.kept},
-                  {"not_reached", c.planned - c.passed},
-                  {"requests", c.asked.requests},
-                  {"retries", c.asked.retries},
-                  {"seconds", report.seconds},
-                  {"lacking", missing}});
+  json object = {{"output", report.output},
+                 {"end", end_name(report.result.end)},
+                 {"planned", c.planned},
+                 {"stored", c.stored},
+                 {"stored_bytes", c.stored_bytes},
+                 {"there", c.there},
+                 {"unchanged", c.unchanged},
+                 {"absent", c.absent},
+                 {"blank", c.blank},
+                 {"broken", c.broken},
+                 {"refused", c.refused},
+                 {"failed", c.failed},
+                 {"no_room", c.no_room},
+                 {"kept", c.kept},
+                 {"not_reached", c.planned - c.passed},
+                 {"requests", c.asked.requests},
+                 {"retries", c.asked.retries},
+                 {"seconds", report.seconds},
+                 {"lacking", missing}};
+  if (!report.time.empty()) object["time"] = report.time;
+  return object;
+}
+
+}  // namespace
+
+std::string to_json(const PreloadReport& report) { return text_of(object_of(report)); }
+
+std::string to_json(const std::vector<PreloadReport>& instants) {
+  json all = {{"instants", json::array()}, {"planned", 0}, {"stored", 0}, {"there", 0}, {"requests", 0}};
+  for (const PreloadReport& report : instants) {
+    const json one = object_of(report);
+    for (const char* count : {"planned", "stored", "there", "requests"}) {
+      all[count] = all[count].get<std::int64_t>() + one[count].get<std::int64_t>();
+    }
+    all["instants"].push_back(one);
+  }
+  return text_of(all);
 }
 
 std::string to_json(const ReleaseReport& report) {
@@ -114,6 +134,7 @@ std::string to_text(const PreloadForecast& forecast) {
   for (const LevelCount& level : forecast.levels) {
     text += fmt::format("level {:2}: {} tiles\n", level.level, level.tiles);
   }
+  if (forecast.instants > 0) text += fmt::format("{} times, the tiles of all in these numbers\n", forecast.instants);
   text += fmt::format("in all: {} tiles, {} of them there already\n", tiles_in(forecast), forecast.there);
   const auto bytes = bytes_of(forecast);
   const auto seconds = seconds_of(forecast);
@@ -136,6 +157,7 @@ std::string to_json(const PreloadForecast& forecast) {
                  {"bytes", nullptr},
                  {"seconds", nullptr},
                  {"fits", !forecast.no_room}};
+  if (forecast.instants > 0) object["instants"] = forecast.instants;
   if (const auto bytes = bytes_of(forecast)) object["bytes"] = *bytes;
   if (const auto seconds = seconds_of(forecast)) object["seconds"] = *seconds;
   return text_of(object);

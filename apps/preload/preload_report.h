@@ -14,6 +14,7 @@ namespace terrella {
 /// Result of a preload.
 struct PreloadReport {
   std::string output;
+  std::string time;  ///< instant of the tiles, of a preload of several; else empty
   PreloadResult result;
   std::vector<MissingReport::Group> missing;
   double seconds = 0.0;
@@ -21,6 +22,8 @@ struct PreloadReport {
 /// to_text() gives lines of text with at most twenty reasons, for people. to_json() gives one JSON object.
 [[nodiscard]] std::string to_text(const PreloadReport& report);
 [[nodiscard]] std::string to_json(const PreloadReport& report);
+/// One JSON object for several instants: their reports, and the sums of planned, stored, there and requests.
+[[nodiscard]] std::string to_json(const std::vector<PreloadReport>& instants);
 
 /// Result of --release, for programs.
 struct ReleaseReport {
@@ -32,7 +35,8 @@ struct ReleaseReport {
 /// Estimate of a preload.
 struct PreloadForecast {
   std::vector<LevelCount> levels;
-  std::int64_t there = 0;  ///< fresh tiles already in the cache
+  std::size_t instants = 0;  ///< number of times, of a preload of several; else 0
+  std::int64_t there = 0;    ///< fresh tiles already in the cache
   SizeSample sample;
   double rate = 0.0;  ///< requests per second; 0: no limit
   int jobs = 1;

@@ -20,12 +20,7 @@ namespace {
 Result<PreloadSource> open_remote(const Url& source, const RemoteOptions& remote, const HttpOptions& http) {
   auto set = fetch_description(source, remote, http);
   if (!set) return set.error();
-  PreloadSource opened{
-      .set = *set, .cache_info = set->info, .key = source_key(*set), .remote = true, .make_origin = {}};
-  opened.make_origin = [limits = within_limits(http, *set), set = *set](ReplyQueue& answers) {
-    return network_origin(set, limits, answers);
-  };
-  return opened;
+  return remote_preload_source(*std::move(set), http);
 }
 
 Result<PreloadSource> open_on_disk(const Url& named, int jobs) {
@@ -103,6 +98,14 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
 }
 
 }  // namespace
+
+PreloadSource remote_preload_source(RemoteTileSet set, const HttpOptions& http) {
+  PreloadSource opened{.set = set, .cache_info = set.info, .key = source_key(set), .remote = true, .make_origin = {}};
+  opened.make_origin = [limits = within_limits(http, set), set = std::move(set)](ReplyQueue& answers) {
+    return network_origin(set, limits, answers);
+  };
+  return opened;
+}
 
 Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote, const HttpOptions& http,
                                           const PreloadTiff& tiff) {

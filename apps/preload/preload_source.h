@@ -34,6 +34,9 @@ struct PreloadTiff {
   std::size_t cache_size_mb = 0;  ///< 0: no limit
 };
 
+/// The source of a remote set whose description is known. thread: any
+[[nodiscard]] PreloadSource remote_preload_source(RemoteTileSet set, const HttpOptions& http);
+
 /// Opens SOURCE; fetches a remote set's description. The error names SOURCE. thread: main
 [[nodiscard]] Result<PreloadSource> open_preload_source(const Url& source, const RemoteOptions& remote,
                                                         const HttpOptions& http, const PreloadTiff& tiff);

@@ -41,6 +41,7 @@ constexpr std::array kOptions = {
     Row{"stretch", "--stretch"},
     Row{"tile_px", "--tile-size"},
     Row{"time", "--layer-time"},
+    Row{"times", "--layer-times"},
     Row{"verify", "terrella info --verify"},
     Row{"west_deg", "--west"},
 };

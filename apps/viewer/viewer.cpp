@@ -62,6 +62,7 @@ std::optional<std::filesystem::path> Viewer::run() {
     const bool panels = front_panel() != nullptr || input_.is_over_panel();
     if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
     modes_.play().advance(Input::now());
+    timeline_.advance(Input::now());
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -141,7 +142,7 @@ void Viewer::wait_for_work() {
   const Seconds start = Input::now();
   do {
     const double pause = balloon_.seconds_left(messages_.seconds_left(pause_s(Input::now() - start)));
-    input_.listen(modes_.play().seconds_left(pause));
+    input_.listen(modes_.play().seconds_left(timeline_.seconds_left(pause)));
   } while (!work());
 }
 
@@ -251,8 +252,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 10> newest{&pictures_, &profile_,   &search_, &open_,   &projects_,
-                                &list_,     &bookmarks_, &draw_,   &layers_, &modes_};
+  std::array<Panel*, 11> newest{&pictures_, &profile_,   &timeline_, &search_, &open_, &projects_,
+                                &list_,     &bookmarks_, &draw_,     &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

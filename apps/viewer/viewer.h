@@ -32,6 +32,7 @@
 #include "apps/viewer/profile/profile.h"
 #include "apps/viewer/projects/projects.h"
 #include "apps/viewer/swipe/swipe.h"
+#include "apps/viewer/timeline/timeline.h"
 #include "apps/viewer/tools/kept_settings.h"
 #include "apps/viewer/tools/view_history.h"
 #include "apps/viewer/window.h"
@@ -139,6 +140,7 @@ class Viewer {
                      options_.kept.restore};
   ViewModes modes_;
   Swipe swipe_{context_};
+  Timeline timeline_{context_, [this] { return layers_.timed(); }};
   Draw draw_{context_};
   Profile profile_{context_, [this] { return measure_.places(); }, [this] { return layers_.shown_numbers(); }};
   Measure measure_{context_, [this](std::vector<Geodetic> places) { draw_.keep_measured(std::move(places)); },
@@ -161,9 +163,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 16> parts_{&help_,      &menu_,    &pictures_, &search_,  &open_, &projects_,
-                                     &bookmarks_, &list_,    &balloon_,  &profile_, &draw_, &layers_,
-                                     &modes_,     &measure_, &cutting_,  &map_};
+  const std::array<Part*, 17> parts_{&help_,      &menu_,  &pictures_, &search_,  &open_,     &projects_,
+                                     &bookmarks_, &list_,  &balloon_,  &profile_, &timeline_, &draw_,
+                                     &layers_,    &modes_, &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

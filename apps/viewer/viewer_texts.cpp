@@ -39,9 +39,10 @@ PanelStatus Viewer::status(const View& view) {
   return status;
 }
 
-// Sources of the last frame.
+// Dates and sources of the last frame.
 std::vector<std::string> Viewer::credits() const {
-  std::vector<std::string> credits = globe_.attributions();
+  std::vector<std::string> credits = timeline_.shown();
+  std::ranges::move(globe_.attributions(), std::back_inserter(credits));
   std::ranges::move(map_.attributions(), std::back_inserter(credits));
   return credits;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/utc_time.h"
 #include "geo/camera.h"
 #include "geo/object_edits.h"
 #include "geo/objects.h"
@@ -27,6 +28,19 @@
 #include "view/render_modes.h"
 
 namespace terrella {
+
+/// The instants of an image layer, in UTC. None: its source knows no time (TileSetInfo::instant).
+struct LayerTime {
+  std::optional<UtcTime> shown{};   ///< the tiles on the screen
+  std::optional<UtcTime> coming{};  ///< the tiles on their way to replace them; none: there are no such tiles
+};
+
+/// An instant of which an image layer had no tile in view.
+struct MissingInstant {
+  LayerId layer = LayerId::none;
+  UtcTime instant{};
+  std::string why;  ///< reason of one missing tile
+};
 
 /// A globe that draws image layers, heights and objects as a camera sees them into a framebuffer. It is made in a
 /// current OpenGL 4.5 context of any origin. Every call leaves the GL state as it found it, unless
@@ -98,6 +112,17 @@ class Globe {
   [[nodiscard]] bool awaits_source(LayerId imagery) const;
   /// Returns the source of the tiles that an image layer shows. Fails if the globe does not have the image layer.
   [[nodiscard]] Result<std::shared_ptr<TileSource>> source(LayerId imagery) const;
+  /// Shows an image layer at a time in UTC: at the last instant of its source (TileSetInfo::steps) at or before it. The
+  /// tiles come and appear as those of set_source(). Nothing happens if that instant is shown or on its way. If no tile
+  /// in view exists at that instant, up to three earlier instants are tried, and missing_instants() names it. The
+  /// instants asked for before, two at most, go on loading into their caches; one that is complete before the wanted
+  /// one appears meanwhile. Fails if the globe does not have the image layer, if its source has no instants, or if the
+  /// time is before the first, which the error names. Takes milliseconds.
+  Status set_layer_time(LayerId imagery, UtcTime time);
+  /// Returns the instants of an image layer. Fails if the globe does not have the image layer.
+  [[nodiscard]] Result<LayerTime> layer_time(LayerId imagery) const;
+  /// Returns the latest 64 instants that set_layer_time() found missing, in order of time of the finding.
+  [[nodiscard]] const std::deque<MissingInstant>& missing_instants() const;
   /// Sets the attribution text of a layer, which replaces the text of its source. Object layers have no text by
   /// default. Empty: no attribution.
   Status set_attribution(LayerId layer, std::string text);

@@ -49,8 +49,19 @@ struct Globe::Impl {
                                                                std::shared_ptr<TileSource> source,
                                                                const ImageLook& look);
   void forget_views_of(const ImageLayer& image);  ///< in the stacks of all views
-  void drop_coming(LayerId id);                   ///< the layer that would take the place of this one, if any
+  void drop_coming(LayerId id);                   ///< the layers that would take the place of this one
   void put_in_place();                            ///< puts layers in place whose tiles have come
+  // Instants of layers (globe_times.cpp).
+  [[nodiscard]] Status go_to_time(ImageLayer& shown, UtcTime time);
+  /// The layer that takes the place of this one last; null: none, or one that only fills its cache.
+  [[nodiscard]] ImageLayer* newest_coming(const ImageLayer& shown) const;
+  /// True if a layer that is not in place will not take its place, because a later one did.
+  [[nodiscard]] bool is_late(const ImageLayer& layer) const;
+  void drop_late(LayerId id);  ///< all but the latest few that are on their way
+  [[nodiscard]] Status ask_for_time(const ImageLayer& shown, UtcTime time, const SourceTurn& turn);
+  void note_missing(const ImageLayer& lacking, UtcTime instant);
+  /// Names the instant of a layer without a tile in view, and asks for an earlier one.
+  void step_back(const ImageLayer& lacking);
   Status show_layers();
   void take_cuts();      ///< takes the objects that workers have cut, and lets objects follow the ground
   void follow_ground();  ///< takes changes of what lies on the ground
@@ -87,6 +98,8 @@ struct Globe::Impl {
   std::uint64_t frame = 0;  ///< counts the frames of all views
   bool changed = true;      ///< something that all views show has changed since the last frame of any view
   std::deque<MissingTile> missing, missing_heights;
+  std::deque<MissingInstant> missing_instants;
+  std::uint64_t turns = 0;  ///< sources asked for
 };
 
 /// Misuse: an assertion, and an error if assertions are off. thread: any

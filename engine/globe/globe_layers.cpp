@@ -102,18 +102,23 @@ void Globe::Impl::drop_coming(LayerId id) {
 void Globe::Impl::put_in_place() {
   const auto is_due = [this](const auto& layer) { return layer->is_ready() || !image(layer->id())->is_drawn(sides()); };
   if (std::ranges::none_of(coming, is_due)) return;
+  std::vector<std::unique_ptr<ImageLayer>> gone;
   for (auto& layer : coming) {
     if (!is_due(layer)) continue;
     const auto place = std::ranges::find(images, layer->id(), [](const auto& one) { return one->id(); });
-    if (!layer->is_void()) {
+    if (!layer->is_void() && !is_late(*layer)) {
       layer->set_look((*place)->look());
       place->swap(layer);
       for (GlobeView::Impl* view : views) view->is_behind = true;
     }
     forget_views_of(*layer);
-    layer.reset();
+    gone.push_back(std::move(layer));
   }
   std::erase(coming, nullptr);
+  for (const auto& layer : gone) {
+    if (layer->is_void()) step_back(*layer);
+  }
+  gone.clear();
   share_gpu();
   restore_detail();
 }
@@ -143,6 +148,7 @@ Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
   if (shown == nullptr) return no_layer("Globe::set_source", "image layer", imagery);
   auto layer = impl_->make_image("Globe::set_source", imagery, std::move(source), shown->look());
   if (!layer) return layer.error();
+  (*layer)->set_turn({.number = ++impl_->turns});
   impl_->drop_coming(imagery);
   impl_->coming.push_back(*std::move(layer));
   impl_->put_in_place();
@@ -152,7 +158,8 @@ Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
 
 bool Globe::awaits_source(LayerId imagery) const {
   if (!impl_->may_call("Globe::awaits_source")) return false;
-  return std::ranges::any_of(impl_->coming, [imagery](const auto& layer) { return layer->id() == imagery; });
+  const ImageLayer* shown = impl_->image(imagery);
+  return shown != nullptr && impl_->newest_coming(*shown) != nullptr;
 }
 
 Result<std::shared_ptr<TileSource>> Globe::source(LayerId imagery) const {

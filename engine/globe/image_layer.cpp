@@ -91,7 +91,9 @@ void ImageLayer::set_look(const ImageLook& look) {
 }
 
 bool ImageLayer::is_ready() const {
-  return !views_.empty() && std::ranges::all_of(views_, [](const auto& view) { return view->settled(); });
+  // Tiles that are still asked for, such as the root tiles, would be dropped if the next instant came before them.
+  return !views_.empty() &&
+         std::ranges::all_of(views_, [](const auto& view) { return view->settled() && view->requests().empty(); });
 }
 
 bool ImageLayer::is_void() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -30,6 +31,12 @@ struct LayerSetup {
   std::shared_ptr<ArrivalBell> bell;  ///< rings when a tile has arrived
 };
 
+/// The place of a source among all that a globe was asked for.
+struct SourceTurn {
+  std::uint64_t number = 0;  ///< rises with each call
+  int steps_back = 0;        ///< instants that were missing before this one was tried
+};
+
 /// One image layer of a globe: its tiles from the source to the GPU. Its views draw patches with them. thread: main
 class ImageLayer {
  public:
@@ -42,6 +49,8 @@ class ImageLayer {
   [[nodiscard]] static std::unique_ptr<ImageLayer> make_plain(const LayerSetup& setup);
 
   [[nodiscard]] LayerId id() const { return id_; }
+  [[nodiscard]] const SourceTurn& turn() const { return turn_; }
+  void set_turn(const SourceTurn& turn) { turn_ = turn; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
   /// True if the layer has the tiles that its views want, or will not get them.
@@ -113,6 +122,7 @@ class ImageLayer {
   void keep_tiles_of_views(std::size_t uploads, std::uint64_t frame);
 
   LayerId id_;
+  SourceTurn turn_;
   Ellipsoid ellipsoid_;
   int segments_;
   CubeMapping mapping_;

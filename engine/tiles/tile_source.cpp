@@ -47,6 +47,12 @@ Status check_numbers(const NumberInfo& info) {
       .result();
 }
 
+Result<std::unique_ptr<TileSource>> TileSource::at_time(UtcTime time) {
+  static_cast<void>(time);
+  const std::string& name = info().name;
+  return Error{(name.empty() ? "the tiles" : name) + ": no times are known of it, so it is the same at all times"};
+}
+
 Result<double, TileFailure> TileSource::value_at(const Geodetic& place, const Ellipsoid& figure) {
   const TileSetInfo& set = info();
   if (!set.numbers) return TileFailure{MissingKind::absent, "the tiles are pictures"};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/time_steps.h"
 #include "codecs/image.h"
 #include "codecs/numbers.h"
 #include "tiles/tile_grid.h"
@@ -86,9 +87,12 @@ struct TileSetInfo {
   std::optional<NumberInfo> numbers = {};  ///< set: the tiles are numbers; none: pictures
   /// The grid of the tiles from which this set's tiles are made.
   std::optional<TileGrid> made_of = {};
-  std::optional<CrsSquare> square = {};   ///< square of a `projected` grid: this set's, or that of `made_of`
-  std::string time = {};                  ///< instant of the tiles, as their service writes it; empty: none is known
-  std::string times = {};                 ///< summary of the instants that the service has; empty: none is known
+  std::optional<CrsSquare> square = {};  ///< square of a `projected` grid: this set's, or that of `made_of`
+  std::string time = {};                 ///< instant of the tiles, as their service writes it; empty: none is known
+  std::string times = {};                ///< summary of the instants that the service has; empty: none is known
+  std::optional<UtcTime> instant = {};   ///< `time`; none: not known
+  /// The instants for which TileSource::at_time() has a source, never empty; null: none is known.
+  std::shared_ptr<const TimeSteps> steps = {};
   std::vector<std::string> remarks = {};  ///< notes for the user: what was left out when the set was opened
 };
 
@@ -165,6 +169,10 @@ class TileSource {
     static_cast<void>(id);
     return edition();
   }
+  /// Makes the source of the same tiles at the last of TileSetInfo::steps at or before a time. Requests no description
+  /// of the set, but may open a cache, milliseconds. Fails if no steps are known, or if the time is before the first
+  /// one, which the error names. Has no effect on this source. thread: any, one at a time
+  [[nodiscard]] virtual Result<std::unique_ptr<TileSource>> at_time(UtcTime time);
   /// Counts the tiles of a level; nothing if that would require a request per tile. May take long. thread: worker
   [[nodiscard]] virtual std::optional<std::int64_t> count_tiles(int level) {
     static_cast<void>(level);

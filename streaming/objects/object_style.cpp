@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "base/iso_time.h"
 #include "base/number.h"
 #include "base/utc_time.h"
 #include "streaming/preload/geojson_text.h"
-#include "streaming/time/iso_time.h"
 
 namespace terrella {
 namespace {

@@ -140,6 +140,9 @@ class Describing {
   Result<RemoteTileSet> interpret(Kind kind, const std::string& text, const Url& address,
                                   const RemoteOptions& options) {
     const std::string where = address.redacted();
+    if (kind != Kind::json && !options.times.empty()) {
+      return Error{where + ": ‹times› are for a URL template with {time}; a service lists its own"};
+    }
     switch (kind) {
       case Kind::wmts:
         return checked(parse_wmts_capabilities(text, options, where), address);

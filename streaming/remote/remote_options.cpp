@@ -38,6 +38,7 @@ RemoteOptions merge(const RemoteOptions& said, const RemoteOptions& otherwise) {
   prefer(merged.matrix_set, otherwise.matrix_set);
   prefer(merged.style, otherwise.style);
   prefer(merged.time, otherwise.time);
+  if (merged.times.empty()) merged.times = otherwise.times;
   prefer(merged.root_span_deg, otherwise.root_span_deg);
   prefer(merged.tile_px, otherwise.tile_px);
   prefer(merged.min_level, otherwise.min_level);

@@ -25,7 +25,8 @@ struct RemoteOptions {
   std::string layer{};       ///< WMTS or WMS layers; empty: the only one
   std::string matrix_set{};  ///< WMTS matrix set; empty: the layer's first that fits a grid
   std::string style{};       ///< WMTS or WMS style; empty: its default
-  std::string time{};        ///< WMTS or WMS time, ISO 8601; empty: its default
+  std::string time{};        ///< time, ISO 8601; empty: the default of the WMTS or WMS, the newest of a URL template
+  std::vector<std::string> times{};  ///< instants of a URL template, as TimeSteps::parse() reads them
 
   std::optional<double> root_span_deg{};  ///< for a URL template; none: 180. For others: must agree with the document
   std::optional<int> tile_px{};           ///< for a URL template; none: 256. For others: must agree with the document

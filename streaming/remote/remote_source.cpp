@@ -7,6 +7,7 @@
 
 #include "streaming/http/reply_queue.h"
 #include "streaming/remote/tile_fetcher.h"
+#include "streaming/remote/tile_set_time.h"
 #include "tiles/request_desk.h"
 
 namespace terrella {
@@ -28,9 +29,11 @@ Encoded tile_of(CacheRecord&& record) {
 
 class RemoteSource : public TileSource {
  public:
-  RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options)
+  RemoteSource(RemoteTileSet set, std::shared_ptr<TileCache> cache, const HttpOptions& options, OpenCache open_cache)
       : set_(std::move(set)),
         cache_(std::move(cache)),
+        options_(options),
+        open_cache_(std::move(open_cache)),
         desk_({.work = [this](const TileWish& wish) { return ask(wish); },
                .moved = [this](const TileWish& wish) { fetcher_.set_priority(wish.number, wish.priority); },
                .ended =
@@ -56,6 +59,14 @@ class RemoteSource : public TileSource {
     std::optional<CacheRecord> record = cached(id);
     if (record && is_fresh(*record, unix_now_s())) return tile_of(*std::move(record));
     return TileFailure{MissingKind::remote, {}};
+  }
+
+  [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
+    Result<RemoteTileSet> other = terrella::at_time(set_, time);
+    if (!other) return other.error();
+    auto cache = open_cache_ ? open_cache_(*other) : Result<std::shared_ptr<TileCache>>(nullptr);
+    if (!cache) return cache.error();
+    return make_remote_source(*std::move(other), *std::move(cache), options_, open_cache_);
   }
 
  private:
@@ -145,6 +156,8 @@ class RemoteSource : public TileSource {
 
   const RemoteTileSet set_;
   const std::shared_ptr<TileCache> cache_;
+  const HttpOptions options_;
+  const OpenCache open_cache_;  ///< for other times; empty: they have no cache
   RequestDesk desk_;
   ReplyQueue replies_;
   TileFetcher fetcher_;  ///< the last member, because it calls the others
@@ -153,8 +166,8 @@ class RemoteSource : public TileSource {
 }  // namespace
 
 std::unique_ptr<TileSource> make_remote_source(RemoteTileSet set, std::shared_ptr<TileCache> cache,
-                                               const HttpOptions& options) {
-  return std::make_unique<RemoteSource>(std::move(set), std::move(cache), options);
+                                               const HttpOptions& options, OpenCache open_cache) {
+  return std::make_unique<RemoteSource>(std::move(set), std::move(cache), options, std::move(open_cache));
 }
 
 }  // namespace terrella

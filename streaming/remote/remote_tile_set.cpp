@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "streaming/remote/tile_set_time.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/gpkg_schema.h"
 
@@ -68,6 +69,7 @@ std::string value_of(std::string_view name, const RemoteTileSet& set, const Tile
   if (name == "-y") return std::to_string(row_from_south(set, id));
   if (name == "s") return set.subdomains.empty() ? "" : set.subdomains[TileIdHash{}(id) % set.subdomains.size()];
   if (name == "bbox") return bbox_of(set, id);
+  if (is_time_placeholder(name)) return time_in_url(set.info, name);
   const TileId moved = shifted(set, id);
   if (name == "q") return quadkey_of(moved, id.level);
   return std::to_string(name == "x" || name == "col" ? moved.x : moved.y);
@@ -112,7 +114,7 @@ std::string without_secrets(const Url& whole) {
 
 std::string source_key(const RemoteTileSet& set) {
   nlohmann::ordered_json key;
-  key["url"] = without_secrets(set.url);
+  key["url"] = without_secrets(url_at_its_time(set));
   key["subdomains"] = set.subdomains;
   key["levels"] = set.level_names;
   auto& shifts = key["shifts"] = nlohmann::ordered_json::array();

@@ -10,7 +10,6 @@
 #include "base/result.h"
 #include "streaming/http/range_reader.h"
 #include "streaming/pmtiles/pmtiles_index.h"
-#include "streaming/time/time_steps.h"
 #include "streaming/url.h"
 #include "tiles/tile_source.h"
 
@@ -36,8 +35,8 @@ struct RemoteTileSet {
   /// Template with {z}, {x}, {y} (rows from the north) or {-y} (from the south), and {s} (one of `subdomains`). {row}
   /// and {col} are other names of {y} and {x}. {z} may stand for `level_names`. {q} is Bing's quadkey of all three.
   /// {bbox} are the tile's corners in the units of the grid's reference system, as WMS wants them.
+  /// {time} is info.time as the service writes it; {time:FORMAT} is info.instant by strftime's codes.
   Url url{};
-  TimeSteps times{};            ///< the instants that the service lists, of which info.time is one; may be empty
   bool northing_first = false;  ///< in {bbox}
   std::vector<std::string> subdomains{};
   std::vector<std::string> level_names{};           ///< by level, if they are not numbers (WMTS matrix identifiers)
@@ -60,8 +59,8 @@ struct RemoteTileSet {
 /// like key, token or signature. Other values stay, because they may select the tiles. thread: any
 [[nodiscard]] std::string without_secrets(const Url& url);
 
-/// Key that distinguishes this set's cache from others: address template without secrets, sub-domains, level names and
-/// shifts; no headers. thread: any
+/// Key that distinguishes this set's cache from others: address template at its time without secrets, sub-domains,
+/// level names and shifts; no headers. thread: any
 [[nodiscard]] std::string source_key(const RemoteTileSet& set);
 
 }  // namespace terrella

@@ -16,12 +16,37 @@ namespace {
 constexpr int kVersion = 1;
 constexpr int kMaxLife_s = 315'360'000;  // ten years; more is a mistake of units
 
-constexpr std::array kKnown = {
-    "version",     "name",           "attribution",   "body",      "url",      "subdomains", "headers",
-    "wmts",        "layer",          "matrix_set",    "style",     "time",     "tms",        "wms",
-    "min_level",   "max_level",      "root_span_deg", "tile_px",   "bounds",   "format",     "latitude",
-    "projection",  "absence_life_s", "tile_life_s",   "elevation", "encoding", "crs",        "extent",
-    "resolutions", "tile_matrix_set"};
+constexpr std::array kKnown = {"version",
+                               "name",
+                               "attribution",
+                               "body",
+                               "url",
+                               "subdomains",
+                               "headers",
+                               "wmts",
+                               "layer",
+                               "matrix_set",
+                               "style",
+                               "time",
+                               "tms",
+                               "wms",
+                               "min_level",
+                               "max_level",
+                               "root_span_deg",
+                               "tile_px",
+                               "bounds",
+                               "format",
+                               "latitude",
+                               "projection",
+                               "absence_life_s",
+                               "tile_life_s",
+                               "elevation",
+                               "encoding",
+                               "crs",
+                               "extent",
+                               "resolutions",
+                               "tile_matrix_set",
+                               "times"};
 
 std::optional<std::string> text_if(JsonFields& fields, const char* field) {
   return fields.has(field) ? std::optional(fields.text(field)) : std::nullopt;
@@ -119,7 +144,11 @@ void read_kind(JsonFields& fields, SourceDescription& source) {
   }
   const bool is_wmts = source.kind == SourceKind::wmts;
   if (fields.has("matrix_set") && !is_wmts) fields.fail<int>("matrix_set", "is for a \"wmts\" alone");
-  for (const char* field : {"layer", "style", "time"}) {
+  if (fields.has("times") && source.kind != SourceKind::url_template) {
+    fields.fail<int>("times", "is for a \"url\" alone; a service lists its own");
+  }
+  if (fields.has("time") && source.kind == SourceKind::tms) fields.fail<int>("time", "is not for a \"tms\"");
+  for (const char* field : {"layer", "style"}) {
     if (fields.has(field) && !is_wmts && source.kind != SourceKind::wms) {
       fields.fail<int>(field, "is for a \"wmts\" or a \"wms\" alone");
     }
@@ -141,6 +170,7 @@ Result<SourceDescription> parse_source_json(std::string_view text, const std::st
   options.matrix_set = fields.text("matrix_set");
   options.style = fields.text("style");
   options.time = fields.text("time");
+  options.times = fields.texts("times");
   options.name = text_if(fields, "name");
   options.attribution = text_if(fields, "attribution");
   options.body = text_if(fields, "body");

@@ -8,17 +8,18 @@
 
 #include "streaming/remote/bulk_terms.h"
 #include "streaming/remote/stated_square.h"
+#include "streaming/remote/tile_set_time.h"
 #include "streaming/remote/web_address.h"
 #include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {
 
-constexpr const char* kPlaceholders = "{z} {x} {y} {-y} {s} {row} {col} {q} {bbox}";
+constexpr const char* kPlaceholders = "{z} {x} {y} {-y} {s} {row} {col} {q} {bbox} {time}";
 
 bool is_placeholder(std::string_view name) {
   return name == "z" || name == "x" || name == "y" || name == "-y" || name == "s" || name == "row" || name == "col" ||
-         name == "q" || name == "bbox";
+         name == "q" || name == "bbox" || is_time_placeholder(name);
 }
 
 struct Scan {
@@ -39,6 +40,7 @@ Scan scan(std::string_view url) {
       found.fault = fmt::format("has the unknown placeholder {{{}}}; known are {}", name, kPlaceholders);
       return found;
     }
+    if (found.fault = fault_of_time_placeholder(name); !found.fault.empty()) return found;
     found.names.emplace(name);
     at = end + 1;
   }
@@ -167,10 +169,12 @@ Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& opt
                                         const std::string& where) {
   RemoteTileSet set;
   set.url = url;
+  set.info.name = url.without_query();
   set.subdomains = options.subdomains;
   if (set.subdomains.empty() && url.with_secrets().find("{s}") != std::string::npos) set.subdomains = {"a", "b", "c"};
   if (Status checked = check_options(options, where); !checked) return checked.error();
   if (Status checked = check_url_template(set, files, where); !checked) return checked.error();
+  if (Status timed = choose_template_time(set, options, where); !timed) return timed.error();
   if (options.square) {
     if (Status placed = place_on_stated_square(options, set); !placed) {
       return Error{where + ": " + placed.error().message};
@@ -179,7 +183,6 @@ Result<RemoteTileSet> template_tile_set(const Url& url, const RemoteOptions& opt
     return placed.error();
   }
   set.info.format = options.format.value_or(format_of_ending(url.with_secrets()));
-  set.info.name = url.without_query();
   apply_options(set, options);
   return set;
 }

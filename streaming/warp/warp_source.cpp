@@ -95,8 +95,9 @@ Result<TileGrid> grid_for(const GroundMap& map, const RasterInfo& raster, const 
 
 class WarpSource : public TileSource {
  public:
-  WarpSource(std::shared_ptr<TilePlanner> planner, std::shared_ptr<const StoredBlocks> blocks, TileSetInfo info)
-      : planner_(std::move(planner)), blocks_(std::move(blocks)), info_(std::move(info)) {
+  WarpSource(std::shared_ptr<TilePlanner> planner, std::shared_ptr<const StoredBlocks> blocks, TileSetInfo info,
+             SourceAtTime at_time)
+      : planner_(std::move(planner)), blocks_(std::move(blocks)), info_(std::move(info)), at_time_(std::move(at_time)) {
     if (blocks_->network() == nullptr) return;
     const auto make_job = [plans = planner_, from = blocks_](const TileId& id) { return job_of(*plans, from, id); };
     fetcher_ = std::make_shared<BlockFetcher>(blocks_, make_job, info_.numbers.has_value());
@@ -109,6 +110,10 @@ class WarpSource : public TileSource {
 
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] RemoteTiles* remote() override { return fetcher_ ? &fetcher_->tiles() : nullptr; }
+
+  [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
+    return at_time_ ? at_time_(time) : TileSource::at_time(time);
+  }
 
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override {
     if (!exists(info_.grid, id)) return TileFailure{MissingKind::absent, "outside the tile set"};
@@ -136,6 +141,7 @@ class WarpSource : public TileSource {
   const std::shared_ptr<TilePlanner> planner_;
   const std::shared_ptr<const StoredBlocks> blocks_;
   const TileSetInfo info_;
+  const SourceAtTime at_time_;             ///< calls the stored tiles, which `blocks_` owns
   std::shared_ptr<BlockFetcher> fetcher_;  ///< null: all blocks are available without requests
 };
 
@@ -222,10 +228,11 @@ Result<CrsPoint, TileFailure> TilePlanner::pixel_at(const RowPlace& place) {
 }
 
 std::unique_ptr<TileSource> make_warp_source(std::unique_ptr<RasterSource> raster, std::shared_ptr<TilePlanner> planner,
-                                             TileSetInfo info, BlockNames names, std::size_t decoded_bytes) {
+                                             TileSetInfo info, BlockNames names, std::size_t decoded_bytes,
+                                             SourceAtTime at_time) {
   auto blocks =
       std::make_shared<const StoredBlocks>(std::move(raster), planner->frame().levels, std::move(names), decoded_bytes);
-  return std::make_unique<WarpSource>(std::move(planner), std::move(blocks), std::move(info));
+  return std::make_unique<WarpSource>(std::move(planner), std::move(blocks), std::move(info), std::move(at_time));
 }
 
 }  // namespace terrella

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,9 +79,14 @@ class TilePlanner {
   std::vector<GroundMap> idle_;  ///< maps that no thread uses
 };
 
-/// Makes a source of tiles in a given grid; `info` describes it.
+/// Makes the source of another time (TileSource::at_time()).
+using SourceAtTime = std::function<Result<std::unique_ptr<TileSource>>(UtcTime time)>;
+
+/// Makes a source of tiles in a given grid; `info` describes it. `at_time` is called while the source lives; empty: the
+/// source has no times.
 [[nodiscard]] std::unique_ptr<TileSource> make_warp_source(std::unique_ptr<RasterSource> raster,
                                                            std::shared_ptr<TilePlanner> planner, TileSetInfo info,
-                                                           BlockNames names, std::size_t decoded_bytes);
+                                                           BlockNames names, std::size_t decoded_bytes,
+                                                           SourceAtTime at_time = {});
 
 }  // namespace terrella

@@ -48,6 +48,15 @@ Result<std::set<TileId>> planned_tiles(const TileGrid& stored, TilePlanner& plan
   return found;
 }
 
+/// Warps the stored tiles of another time. `stored` must outlive the function.
+SourceAtTime warped_at_time(TileSource& stored, const std::string& where) {
+  return [&stored, where](UtcTime time) -> Result<std::unique_ptr<TileSource>> {
+    auto other = stored.at_time(time);
+    if (!other) return other.error();
+    return as_geodetic(*std::move(other), where);
+  };
+}
+
 /// Warps a set in a `projected` grid.
 Result<std::unique_ptr<TileSource>> geodetic_of_projected(std::unique_ptr<TileSource> stored,
                                                           const std::string& where) {
@@ -55,6 +64,7 @@ Result<std::unique_ptr<TileSource>> geodetic_of_projected(std::unique_ptr<TileSo
   const int first_level = info.grid.min_level;
   const auto options = options_of_projected(info);
   if (!options) return Error{where + ": " + options.error().message};
+  SourceAtTime at_time = warped_at_time(*stored, where);
   auto raster = raster_of_tiles(std::move(stored));
   const auto grid = warp_grid(raster->info(), *options, where);
   if (!grid) return grid.error();
@@ -64,7 +74,8 @@ Result<std::unique_ptr<TileSource>> geodetic_of_projected(std::unique_ptr<TileSo
   info.grid = *grid;
   if (info.numbers) info.numbers = decoded(*info.numbers);
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info),
-                          {.noun = "stored tile", .first_level = first_level}, options->decoded_bytes);
+                          {.noun = "stored tile", .first_level = first_level}, options->decoded_bytes,
+                          std::move(at_time));
 }
 
 }  // namespace
@@ -123,11 +134,13 @@ Result<std::unique_ptr<TileSource>> as_geodetic(std::unique_ptr<TileSource> stor
   info.grid = geodetic_grid_of(mercator);
   if (Status good = check_grid(info.grid, where + ": between the ends of Web Mercator"); !good) return good.error();
   if (info.numbers) info.numbers = decoded(*info.numbers);
+  SourceAtTime at_time = warped_at_time(*stored, where);
   auto raster = raster_of_tiles(std::move(stored));
   auto planner = TilePlanner::open(raster->info(), figure_of(mercator), info.grid, Overviews::stored);
   if (!planner) return Error{where + ": " + planner.error().message};
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info),
-                          {.noun = "Web Mercator tile", .first_level = mercator.min_level}, kWarpDecodedBytes);
+                          {.noun = "Web Mercator tile", .first_level = mercator.min_level}, kWarpDecodedBytes,
+                          std::move(at_time));
 }
 
 }  // namespace terrella

@@ -147,6 +147,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def fault_slow(self):
         time.sleep(float(self.options.get("seconds", 0.5)))
+        if self.server.root is not None:
+            return self.fault_file()
         self.fault_ok()
 
     def fault_reset(self):

@@ -90,6 +90,10 @@ class Nginx:
         return {tuple(map(int, path.removesuffix(".jpg").split("/")[1:])) for connection, path in self._connections()
                 if connection > cut and not path.startswith("/cut/")}
 
+    def paths_since(self, cut):
+        """The paths asked for on connections after a cut."""
+        return {path for connection, path in self._connections() if connection > cut and not path.startswith("/cut/")}
+
     def _connections(self):
         lines = self.access_log.read_text().splitlines() if self.access_log.exists() else []
         return [(int(line.split()[0]), line.split()[3]) for line in lines if len(line.split()) == 4]

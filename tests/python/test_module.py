@@ -27,7 +27,8 @@ SOURCE = pathlib.Path(os.environ["TERRELLA_SOURCE"])
 NATURAL_EARTH = SOURCE / "tests/fixtures/natural_earth_ii"
 PICTURE = SOURCE / "data/earth/blue_marble_4096x2048.jpg"
 
-sys.path.insert(0, str(SOURCE / "tests/window"))
+sys.path[:0] = [str(SOURCE / "tests/window"), str(SOURCE / "tests/support")]
+import pictures  # noqa: E402
 import png  # noqa: E402
 
 SIZE = (160, 120)
@@ -341,6 +342,30 @@ class Globes(ModuleTest):
         with self.assertRaisesRegex(terrella.Error, "nowhere.gpkg"):
             globe.add_imagery("nowhere.gpkg")
 
+    def test_a_layer_at_its_times(self):
+        colours = {"2026-06-01": (200, 0, 0), "2026-06-02": (0, 200, 0), "2026-06-03": (0, 0, 200)}
+        for date, colour in colours.items():
+            for x in (0, 1):
+                tile = self.folder / date / "0" / str(x) / "0.png"
+                tile.parent.mkdir(parents=True)
+                tile.write_bytes(pictures.png(256, 256, colour))
+        template = serve(self, self.folder) + "/{time:%Y-%m-%d}/{z}/{x}/{y}.png"
+        globe = terrella.Globe(template, layer_times="2026-06-01/2026-06-03/P1D", max_level=0, size=SIZE, unlit=True)
+        layer = globe.imagery[0]
+        self.assertEqual(globe.layer_times(layer), list(colours))
+        self.assertEqual(globe.layer_time(layer), "2026-06-03")
+        for time, shown in (("2026-06-01", "2026-06-01"), ("2026-06-02T23:59Z", "2026-06-02"), ("2030-01-01", "2026-06-03")):
+            globe.set_layer_time(layer, time)
+            self.assertEqual(tuple(globe.render()[SIZE[1] // 2, SIZE[0] // 2]), colours[shown])
+            self.assertEqual(globe.layer_time(layer), shown)
+        for time, says in (("2026-05-31", "first time is 2026-06-01"), ("soon", "soon")):
+            with self.assertRaisesRegex(terrella.Error, says):
+                globe.set_layer_time(layer, time)
+        still = globe.add_imagery(NATURAL_EARTH)
+        self.assertEqual((globe.layer_times(still), globe.layer_time(still)), ([], None))
+        with self.assertRaisesRegex(terrella.Error, "no times are known"):
+            globe.set_layer_time(still, "2026-06-01")
+
     def test_layers_added_later_are_those_of_the_scene(self):
         plain, explained = (terrella.Globe(NATURAL_EARTH, camera=(0, -140, 8e6), size=(320, 240), legend=legend) for legend in (False, True))
         self.assertTrue((plain.render() == explained.render()).all())
@@ -353,10 +378,10 @@ class Globes(ModuleTest):
 
     def test_threads_and_two_globes(self):
         globes = [terrella.Globe(NATURAL_EARTH, camera=(0, lon, 8e6), size=SIZE) for lon in (0, 90)]
-        pictures = [None, None]
+        drawn = [None, None]
 
         def draw(k):
-            pictures[k] = globes[k].render()
+            drawn[k] = globes[k].render()
 
         threads = [threading.Thread(target=draw, args=(k,)) for k in (0, 1)]
         for thread in threads:
@@ -364,8 +389,8 @@ class Globes(ModuleTest):
         for thread in threads:
             thread.join()
         globes[0].close()
-        self.assertTrue((globes[1].render() == pictures[1]).all())
-        self.assertFalse((pictures[0] == pictures[1]).all())
+        self.assertTrue((globes[1].render() == drawn[1]).all())
+        self.assertFalse((drawn[0] == drawn[1]).all())
         with self.assertRaisesRegex(terrella.Error, "closed"):
             globes[0].render()
 

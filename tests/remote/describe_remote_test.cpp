@@ -107,7 +107,7 @@ TEST(DescribeRemote, AJsonMayPointToACapabilitiesDocument) {
                                             "");
   const auto set = web.describe("https://a.org/s.json", {.time = "2013-01-01"});
   ASSERT_TRUE(set) << set.error().message;
-  EXPECT_NE(set->url.with_secrets().find("/2013-01-01/"), std::string::npos) << set->url.redacted();
+  EXPECT_NE(tile_url(*set, {}).with_secrets().find("/2013-01-01/"), std::string::npos) << set->url.redacted();
   EXPECT_EQ(set->info.attribution, "me");
 }
 

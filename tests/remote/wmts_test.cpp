@@ -85,14 +85,13 @@ TEST(Wmts, ADocumentOfGibsFormGivesItsLayers) {
 TEST(Wmts, TimesAreThoseThatAreListed) {
   const auto with_time = [](const std::string& time) { return RemoteOptions{.layer = "Daily", .time = time}; };
   const RemoteTileSet old = read(test::gibs_document(), with_time("2012-07-09"));
-  EXPECT_NE(old.url.with_secrets().find("/2012-07-09/"), std::string::npos) << old.url.redacted();
+  EXPECT_NE(tile_url(old, {}).with_secrets().find("/2012-07-09/"), std::string::npos) << old.url.redacted();
   EXPECT_FALSE(old.missing_life);
   EXPECT_EQ(old.info.time, "2012-07-09");
   EXPECT_EQ(old.info.times, "2000-02-24 to 2024-05-20: 8822 instants, P1D, 1 gap") << "by the calendar";
-  EXPECT_EQ(old.times.count(), 8822);
-  EXPECT_NE(
-      read(test::gibs_document(), with_time("2012-07-09T12:30:00Z")).url.with_secrets().find("/2012-07-09T12:30:00Z/"),
-      std::string::npos);
+  EXPECT_EQ(old.info.steps->count(), 8822);
+  const RemoteTileSet noon = read(test::gibs_document(), with_time("2012-07-09T12:30:00Z"));
+  EXPECT_NE(tile_url(noon, {}).with_secrets().find("/2012-07-09T12:30:00Z/"), std::string::npos);
   for (const char* time : {"1999-01-01", "2021-01-15", "2024-05-21", "yesterday", "2012-02-30", "2012-7-9", "{z}"}) {
     expect_wmts_refused(test::gibs_document(), "2000-02-24/2020-12-31/P1D", with_time(time));
   }

@@ -1,5 +1,5 @@
 // Times of services: names of ISO 8601, periods, and the instants of series.
-#include "streaming/time/time_steps.h"
+#include "base/time_steps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -93,6 +93,9 @@ class Walk(WindowTest):
         act()
         wait_until("another text", lambda: differing(before, self.viewer.grab()[ROWS:]) > 100)
 
+    def silent(self):
+        wait_until("no message", lambda: "message" not in self.viewer.layout.panels)
+
     def filed(self, pattern, act):
         before = set(self.folder.glob(pattern))
         act()
@@ -263,6 +266,8 @@ class Walk(WindowTest):
                                                lambda: menu("open a file, folder or address"), none, self.close),
             "play or pause the time": (self.said, lambda: key("t"), lambda: menu("play or pause the time"), none,
                                        lambda: key("t")),  # nothing stands still while it plays
+            "dates of layers: play, step": (self.said, lambda: key("a"), lambda: menu("dates of layers: play, step"),
+                                            self.silent, none),  # a message says that no layer has dates
             "frame time, tiles, memory": (self.said, lambda: key("F3"), lambda: menu("frame time, tiles, memory"), none,
                                           none),
             "go under the ground, and back": (self.moved, lambda: key("x"),

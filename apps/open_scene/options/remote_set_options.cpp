@@ -36,8 +36,13 @@ void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer", remote.layer, "Choose the WMTS or WMS layer");
   app.add_option("--matrix-set", remote.matrix_set, "Choose the tile matrix set if the WMTS layer has several");
   app.add_option("--style", remote.style, "Choose the style of the WMTS or WMS layer");
-  app.add_option("--layer-time", remote.time, "Choose the time (ISO 8601) if the WMTS or WMS layer has several")
+  app.add_option("--layer-time", remote.time,
+                 "Choose the time (ISO 8601) of a layer that has several (default: the server's, or the newest)")
       ->check(is_time());
+  app.add_option("--layer-times", remote.times, "Set the times of a URL template with {time} or {time:%Y-%m-%d}")
+      ->type_name("A/B/P1D[,...]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--root-span", remote.root_span_deg,
                  "Set the degrees that a level-0 tile of a URL template or WMS spans (default: 180)")
       ->check(number_in(0.001, 1e4));

@@ -125,6 +125,7 @@ void put_remote(OrderedJson& json, const RemoteOptions& remote) {
   put(json, "matrix-set", remote.matrix_set, {});
   put(json, "style", remote.style, {});
   put(json, "layer-time", remote.time, {});
+  for (const std::string& times : remote.times) json["layer-times"].push_back(times);
   if (remote.root_span_deg) json["root-span"] = *remote.root_span_deg;
   if (remote.tile_px) json["tile-size"] = *remote.tile_px;
   if (remote.max_level) json["max-level"] = *remote.max_level;

@@ -24,9 +24,12 @@ namespace {
 constexpr double kLegendGap = 0.8;    // in text heights, to the window's edge and the status line
 constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 
-/// The source of a layer, with the colours that it has now.
-SourceOptions described(const LayerRow& row) {
+/// The source of a layer, with the instant and the colours that it has now.
+SourceOptions described(const Globe& globe, const LayerRow& row) {
   SourceOptions source = row.source;
+  const auto time = globe.layer_time(row.id);
+  const auto instant = time ? (time->coming ? time->coming : time->shown) : std::nullopt;
+  if (instant && row.tiles && row.tiles->info().steps) source.remote.time = row.tiles->info().steps->text(*instant);
   if (!row.numbers || !row.look.numbers) return source;
   source.numbers.colormap = row.numbers->colormap;
   source.numbers.lit = row.look.numbers->lit;
@@ -148,13 +151,22 @@ void Layers::describe(SceneOptions& scene) const {
       scene.elevation = row.source.address;
       scene.elevation_shown = row.look.shown;
     } else if (row.kind == LayerKind::imagery) {
-      images.push_back({.source = described(row), .look = row.look});
+      images.push_back({.source = described(context_.globe, row), .look = row.look});
     } else {
       scene.object_layers.push_back(described_objects(row));
     }
   }
   if (images.size() < 2) scene.surface.swipe.reset();  // there is nothing to compare
   set_images(scene, std::move(images));
+}
+
+std::vector<TimedLayer> Layers::timed() const {
+  std::vector<TimedLayer> layers;
+  for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
+    if (row->kind != LayerKind::imagery || !row->look.shown || !row->tiles) continue;
+    if (auto steps = row->tiles->info().steps) layers.push_back({row->id, row->name, std::move(steps)});
+  }
+  return layers;
 }
 
 bool Layers::choose_swipe_sides() {

@@ -10,6 +10,7 @@
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/parts/part.h"
 #include "apps/viewer/profile/profile_samples.h"
+#include "apps/viewer/timeline/timeline.h"
 #include "apps/viewer/tools/dropped_files.h"
 #include "apps/viewer/tools/value_query.h"
 #include "apps/viewer/undo/layer_steps.h"
@@ -61,6 +62,8 @@ class Layers : public Panel {
   void describe(SceneOptions& scene) const;
   /// Name of a layer of objects; nullopt if the layer is hidden or has no row.
   [[nodiscard]] std::optional<std::string> shown_objects(LayerId layer) const;
+  /// The shown layers of images that have instants, the highest first.
+  [[nodiscard]] std::vector<TimedLayer> timed() const;
   /// The highest shown layer of numbers.
   [[nodiscard]] std::optional<ProfileNumbers> shown_numbers() const;
   /// The value that the highest layer of numbers that shows at a place stores there; empty while it is not known.

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/number.h"
+#include "streaming/remote/tile_set_time.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wms/wms_grid.h"
 #include "streaming/remote/wms/wms_layer.h"
@@ -109,7 +110,7 @@ Result<std::string> choose_style(const WmsLayer& layer, const std::string& wante
 }
 
 struct Times {
-  std::string parameters;  ///< "&TIME=…"
+  std::string parameters;  ///< "&TIME={time}"
   ChosenTime time;         ///< empty for a layer without one
 };
 
@@ -124,7 +125,7 @@ Result<Times> choose_times(const WmsLayer& layer, const std::string& wanted) {
     if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
     const bool is_height = same_letters(dimension.name, "elevation");
     const std::string name = is_time ? "TIME" : is_height ? "ELEVATION" : "DIM_" + percent_encode(dimension.name);
-    times.parameters += fmt::format("&{}={}", name, percent_encode(chosen->value));
+    times.parameters += fmt::format("&{}={}", name, is_time ? "{time}" : percent_encode(chosen->value));
     if (is_time) times.time = *std::move(chosen);
     has_time = has_time || is_time;
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,8 +20,6 @@ inline constexpr std::size_t kMaxCapabilitiesBytes = 32UL << 20;
 inline constexpr double kOgcPixel_m = 0.00028;
 /// Longest name or attribution that is taken from a document.
 inline constexpr std::size_t kMaxOgcTextBytes = 16384;
-/// Time until an absent tile of the newest time is requested again.
-inline constexpr std::chrono::seconds kNewestMissingLife{3600};
 /// Limit of root tiles, because they are always in memory.
 inline constexpr std::int64_t kMaxRootTiles = 512;
 

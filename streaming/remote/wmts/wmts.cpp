@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "streaming/remote/tile_set_time.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts_grid.h"
@@ -26,7 +27,7 @@ struct WmtsRequest {
   std::string style{};
   std::string matrix_set{};
   std::string media_type{};
-  std::map<std::string, std::string> dimensions{};  ///< by the name in the document
+  std::map<std::string, std::string> dimensions{};  ///< by the name in the document, encoded; the time is {time}
 };
 
 /// Replacement for a placeholder; nothing if unknown. Ignores case, because writers differ.
@@ -38,7 +39,7 @@ std::optional<std::string> value_of(std::string_view name, const WmtsRequest& re
   if (same_letters(name, "Style")) return percent_encode(request.style);
   if (same_letters(name, "Layer")) return percent_encode(request.layer);
   for (const auto& [dimension, value] : request.dimensions) {
-    if (same_letters(name, dimension)) return percent_encode(value);
+    if (same_letters(name, dimension)) return value;
   }
   return std::nullopt;
 }
@@ -70,7 +71,7 @@ std::string kvp_template(const std::string& address, const WmtsRequest& request)
                      percent_encode(request.media_type));
   url += "&TILEMATRIX={z}&TILEROW={row}&TILECOL={col}";
   for (const auto& [dimension, value] : request.dimensions) {
-    url += fmt::format("&{}={}", percent_encode(dimension), percent_encode(value));
+    url += fmt::format("&{}={}", percent_encode(dimension), value);
   }
   return url;
 }
@@ -182,7 +183,7 @@ Result<ChosenTime> choose_dimensions(const WmtsLayer& layer, const std::string& 
     const bool is_time = same_letters(dimension.name, "time");
     Result<ChosenTime> chosen = choose_time(dimension, is_time ? time : std::string());
     if (!chosen) return Error{fmt::format("layer \"{}\": {}", layer.name, chosen.error().message)};
-    request.dimensions[dimension.name] = chosen->value;
+    request.dimensions[dimension.name] = is_time ? "{time}" : percent_encode(chosen->value);
     if (is_time) chosen_time = *std::move(chosen);
     has_time = has_time || is_time;
   }

@@ -6,14 +6,10 @@
 #include <chrono>
 #include <utility>
 
+#include "streaming/remote/tile_set_time.h"
+
 namespace terrella {
 namespace {
-
-/// The first instant after a series, whose last step may name a whole day or month.
-UtcTime end_of(const TimeSeries& series) {
-  const auto last = read_named_time(time_text(series.last, series.precision, series.has_z));
-  return last ? last->before : series.last;
-}
 
 /// True if a time is a value, or begins within a series. It need not be one of the instants of the series.
 bool is_listed(const WmtsDimension& dimension, const TimeSteps& steps, const std::string& time) {
@@ -22,13 +18,6 @@ bool is_listed(const WmtsDimension& dimension, const TimeSteps& steps, const std
   return wanted && std::ranges::any_of(steps.series(), [&wanted](const TimeSeries& one) {
            return wanted->from >= one.first && wanted->from < end_of(one);
          });
-}
-
-/// True within a day of the last instant, and for "current", "default" and the like.
-bool is_newest(const TimeSteps& steps, const std::string& time) {
-  const auto chosen = read_named_time(time);
-  const auto reaches = [&chosen](const TimeSeries& one) { return chosen->before + std::chrono::days(1) > end_of(one); };
-  return !chosen || (!steps.empty() && std::ranges::all_of(steps.series(), reaches));
 }
 
 std::string list_of(const WmtsDimension& dimension) {
@@ -70,8 +59,7 @@ Result<ChosenTime> choose_time(const WmtsDimension& dimension, const std::string
 void set_times(ChosenTime chosen, RemoteTileSet& set) {
   set.info.time = std::move(chosen.value);
   if (!chosen.fault.empty()) set.info.remarks.push_back("its times: " + chosen.fault);
-  if (!chosen.steps.empty()) set.info.times = chosen.steps.summary();
-  set.times = std::move(chosen.steps);
+  set_steps(std::move(chosen.steps), set.info);
 }
 
 }  // namespace terrella

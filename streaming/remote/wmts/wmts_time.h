@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/time_steps.h"
 #include "streaming/remote/remote_tile_set.h"
-#include "streaming/time/time_steps.h"
 
 namespace terrella {
 

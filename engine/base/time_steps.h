@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/iso_time.h"
 #include "base/result.h"
-#include "streaming/time/iso_time.h"
 
 namespace terrella {
 

@@ -1,4 +1,4 @@
-#include "streaming/time/time_steps.h"
+#include "base/time_steps.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ bool is_now(std::string_view text) {
   return is("current") || is("now") || is("present");
 }
 
-TimeSeries instant(const NamedTime& time) {
+TimeSeries one_instant(const NamedTime& time) {
   return {.first = time.from, .last = time.from, .precision = time.precision, .has_z = time.has_z};
 }
 
@@ -48,18 +48,18 @@ Status append(const std::string& value, UtcTime now, std::vector<TimeSeries>& al
   const auto first = read_named_time(text.substr(0, one));
   if (!first) return Error{fmt::format("{} is no time in UTC of ISO 8601, such as 2026-06-21", shown())};
   if (one == text.npos) {
-    all.push_back(instant(*first));
+    all.push_back(one_instant(*first));
     return Done{};
   }
   const std::string_view end = text.substr(one + 1, two == text.npos ? two : two - one - 1);
   auto last = is_now(end) ? NamedTime{.from = now} : read_named_time(end);
   if (!last) return Error{fmt::format("the end of {} is no time in UTC of ISO 8601", shown())};
   if (last->from < first->from) return Error{fmt::format("{} ends before it begins", shown())};
-  TimeSeries series = instant(*first);
+  TimeSeries series = one_instant(*first);
   all.push_back(series);
   if (last->from == first->from) return Done{};
   if (two == text.npos) {
-    all.push_back(instant(*last));
+    all.push_back(one_instant(*last));
     return Done{};
   }
   const auto period = read_period(text.substr(two + 1));

@@ -1,4 +1,4 @@
-#include "streaming/time/iso_time.h"
+#include "base/iso_time.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,127 @@
+#include "apps/preload/preload_times.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "apps/open_scene/open_cache.h"
+#include "base/number.h"
+#include "streaming/remote/tile_set_time.h"
+
+namespace terrella {
+namespace {
+
+/// The ends of a value A/B without a period.
+std::optional<std::pair<NamedTime, NamedTime>> read_span(const std::string& value) {
+  const std::size_t slash = value.find('/');
+  if (slash == std::string::npos || value.find('/', slash + 1) != std::string::npos) return std::nullopt;
+  const auto first = read_named_time(std::string_view(value).substr(0, slash));
+  const auto last = read_named_time(std::string_view(value).substr(slash + 1));
+  if (!first || !last) return std::nullopt;
+  return std::pair(*first, *last);
+}
+
+/// Collects steps, up to the limit.
+class StepList {
+ public:
+  explicit StepList(const TimeSteps& steps) : steps_(steps) {}
+
+  Status add_span(const NamedTime& first, const NamedTime& last) {
+    auto step = steps_.at_or_before(first.from);
+    if (step != first.from) step = steps_.after(first.from);
+    for (; step && *step < last.before; step = steps_.after(*step)) {
+      if (Status added = add(*step); !added) return added;
+    }
+    return Done{};
+  }
+  Status add_series(const TimeSeries& series) {
+    for (std::int64_t i = 0; i < series.count; ++i) {
+      const UtcTime time = i == 0 ? series.first : after_periods(series.first, series.period, i);
+      const auto step = steps_.at_or_before(time);
+      if (!step) {
+        return Error{fmt::format("--times: the source has nothing at {}; its first time is {}",
+                                 time_text(time, TimePrecision::second, true), steps_.text(steps_.first()))};
+      }
+      if (Status added = add(*step); !added) return added;
+    }
+    return Done{};
+  }
+  [[nodiscard]] std::vector<UtcTime> all() const { return {found_.begin(), found_.end()}; }
+
+ private:
+  Status add(UtcTime step) {
+    found_.insert(step);
+    if (found_.size() <= kMostPreloadTimes) return Done{};
+    return Error{fmt::format("--times: more than {} instants; take fewer at a time", kMostPreloadTimes)};
+  }
+
+  const TimeSteps& steps_;
+  std::set<UtcTime> found_;
+};
+
+Status add_value(const std::string& value, StepList& list) {
+  if (const auto span = read_span(value)) {
+    if (span->second.from < span->first.from) {
+      return Error{fmt::format("--times: {} ends before it begins", in_quotes(value))};
+    }
+    return list.add_span(span->first, span->second);
+  }
+  const UtcTime now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  const auto read = TimeSteps::parse(std::span(&value, 1), now);
+  if (!read) return Error{"--times: " + read.error().message};
+  for (const TimeSeries& series : read->series()) {
+    if (Status added = list.add_series(series); !added) return added;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& values, const TimeSteps& steps) {
+  StepList list(steps);
+  for (const std::string& value : values) {
+    if (Status added = add_value(value, list); !added) return added.error();
+  }
+  if (list.all().empty()) {
+    return Error{fmt::format("--times: the source has no time there; its times: {}", steps.summary())};
+  }
+  return list.all();
+}
+
+Result<PreloadSource> source_at(const PreloadSource& source, UtcTime instant, const HttpOptions& http) {
+  auto set = at_time(source.set, instant);
+  if (!set) return set.error();
+  return remote_preload_source(*std::move(set), http);
+}
+
+PreloadCommand command_at(const PreloadCommand& command, const std::string& time) {
+  PreloadCommand one = command;
+  const auto beside = [&time](const std::string& file) {
+    return file.empty() ? file : file_of_time(file, time).string();
+  };
+  one.output = beside(command.output);
+  one.missing_file = beside(command.missing_file);
+  one.stored_file = beside(command.stored_file);
+  return one;
+}
+
+void add(PreloadForecast& all, const PreloadForecast& one) {
+  ++all.instants;
+  all.there += one.there;
+  for (const LevelCount& level : one.levels) {
+    const auto same = std::ranges::find(all.levels, level.level, &LevelCount::level);
+    if (same == all.levels.end()) {
+      all.levels.push_back(level);
+    } else {
+      same->tiles += level.tiles;
+    }
+  }
+  if (!all.no_room) all.no_room = one.no_room;
+}
+
+}  // namespace terrella

@@ -1,0 +1,127 @@
+#include <algorithm>
+
+#include "globe/globe_impl.h"
+
+// The instants of image layers: one of a layer is shown, later ones are on their way.
+namespace terrella {
+namespace {
+
+/// Layers that may be on their way to one place. Each takes its share of the GPU's memory.
+constexpr std::size_t kMostComing = 3;
+/// Earlier instants that are tried in place of one without a tile in view. In polar night all are.
+constexpr int kMostStepsBack = 3;
+constexpr std::size_t kMostMissingInstants = 64;
+
+std::optional<UtcTime> instant_of(const ImageLayer& layer) { return layer.source()->info().instant; }
+
+}  // namespace
+
+ImageLayer* Globe::Impl::newest_coming(const ImageLayer& shown) const {
+  ImageLayer* newest = nullptr;
+  for (const auto& layer : coming) {
+    const bool is_later = layer && layer->id() == shown.id() && layer->turn().number > shown.turn().number;
+    if (is_later && (newest == nullptr || layer->turn().number > newest->turn().number)) newest = layer.get();
+  }
+  return newest;
+}
+
+bool Globe::Impl::is_late(const ImageLayer& layer) const {
+  const ImageLayer* shown = image(layer.id());
+  return shown != nullptr && shown != &layer && layer.turn().number < shown->turn().number;
+}
+
+void Globe::Impl::drop_late(LayerId id) {
+  const auto is_for = [id](const auto& layer) { return layer->id() == id; };
+  while (static_cast<std::size_t>(std::ranges::count_if(coming, is_for)) > kMostComing) {
+    auto oldest = coming.end();
+    for (auto layer = coming.begin(); layer != coming.end(); ++layer) {
+      if (!is_for(*layer)) continue;
+      if (oldest == coming.end() || (*layer)->turn().number < (*oldest)->turn().number) oldest = layer;
+    }
+    forget_views_of(**oldest);
+    coming.erase(oldest);
+  }
+}
+
+Status Globe::Impl::ask_for_time(const ImageLayer& shown, UtcTime time, const SourceTurn& turn) {
+  auto source = shown.source()->at_time(time);
+  if (!source) return Error{"Globe::set_layer_time: " + source.error().message};
+  auto layer = make_image("Globe::set_layer_time", shown.id(), *std::move(source), shown.look());
+  if (!layer) return layer.error();
+  (*layer)->set_turn(turn);
+  (*layer)->set_attribution(shown.attribution());
+  coming.push_back(*std::move(layer));
+  for (GlobeView::Impl* view : views) view->is_behind = true;
+  drop_late(shown.id());
+  share_gpu();
+  return Done{};
+}
+
+Status Globe::Impl::go_to_time(ImageLayer& shown, UtcTime time) {
+  const SourceTurn turn{.number = turns + 1};
+  const TileSetInfo& info = shown.source()->info();
+  const std::optional<UtcTime> found = info.steps ? info.steps->at_or_before(time) : std::nullopt;
+  if (!found) return ask_for_time(shown, time, turn);  // the source says what is wrong
+  const UtcTime step = *found;
+  const auto is_there = [&](const ImageLayer& layer) { return instant_of(layer) == std::optional(step); };
+  const ImageLayer* newest = newest_coming(shown);
+  if (is_there(newest == nullptr ? shown : *newest)) return Done{};
+  const auto known =
+      std::ranges::find_if(coming, [&](const auto& layer) { return layer->id() == shown.id() && is_there(*layer); });
+  if (is_there(shown)) {
+    shown.set_turn(turn);
+  } else if (known != coming.end()) {
+    (*known)->set_turn(turn);
+  } else if (Status asked = ask_for_time(shown, time, turn); !asked) {
+    return asked;
+  }
+  turns = turn.number;
+  changed = true;
+  return Done{};
+}
+
+void Globe::Impl::note_missing(const ImageLayer& lacking, UtcTime instant) {
+  const auto tile = std::ranges::find(missing.rbegin(), missing.rend(), lacking.id(), &MissingTile::layer);
+  missing_instants.push_back({lacking.id(), instant, tile == missing.rend() ? "" : tile->failure.why});
+  if (missing_instants.size() > kMostMissingInstants) missing_instants.pop_front();
+}
+
+void Globe::Impl::step_back(const ImageLayer& lacking) {
+  const TileSetInfo& info = lacking.source()->info();
+  const ImageLayer* shown = image(lacking.id());
+  if (!info.steps || !info.instant || shown == nullptr) return;
+  note_missing(lacking, *info.instant);
+  const SourceTurn turn{.number = lacking.turn().number, .steps_back = lacking.turn().steps_back + 1};
+  const ImageLayer* newest = newest_coming(*shown);
+  const bool is_wanted = turn.number > std::max(shown->turn().number, newest == nullptr ? 0 : newest->turn().number);
+  const auto earlier = info.steps->at_or_before(*info.instant - std::chrono::milliseconds(1));
+  if (!is_wanted || !earlier || turn.steps_back > kMostStepsBack) return;
+  if (instant_of(*shown) == std::optional(*earlier)) return;
+  // A source that cannot be made leaves the layer as it is: the missing instant is named.
+  static_cast<void>(ask_for_time(*shown, *earlier, turn));
+}
+
+Status Globe::set_layer_time(LayerId imagery, UtcTime time) {
+  const auto call = impl_->may_draw("Globe::set_layer_time");
+  if (!call) return call.error();
+  ImageLayer* shown = impl_->image(imagery);
+  if (shown == nullptr) return no_layer("Globe::set_layer_time", "image layer", imagery);
+  if (Status gone = impl_->go_to_time(*shown, time); !gone) return gone;
+  impl_->put_in_place();
+  return Done{};
+}
+
+Result<LayerTime> Globe::layer_time(LayerId imagery) const {
+  if (Status call = impl_->may_call("Globe::layer_time"); !call) return call.error();
+  const ImageLayer* shown = impl_->image(imagery);
+  if (shown == nullptr) return no_layer("Globe::layer_time", "image layer", imagery);
+  const ImageLayer* newest = impl_->newest_coming(*shown);
+  return LayerTime{.shown = instant_of(*shown), .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
+}
+
+const std::deque<MissingInstant>& Globe::missing_instants() const {
+  static const std::deque<MissingInstant> none;
+  return impl_->may_call("Globe::missing_instants") ? impl_->missing_instants : none;
+}
+
+}  // namespace terrella

@@ -1,0 +1,93 @@
+"""The dates of a layer in the window: A opens the panel, dates are stepped, played and kept."""
+
+import json
+import os
+import sys
+import unittest
+from pathlib import Path
+
+import pictures
+import png
+from real_window import SIZE, WindowTest, wait_until
+
+sys.path.insert(0, str(Path(os.environ["TERRELLA_SOURCE"]) / "tests/preload"))
+import servers  # noqa: E402
+
+COLOURS = [(200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 0)]
+DATES = [f"2020-01-{day:02}" for day in range(1, 1 + len(COLOURS))]
+BUTTONS = {"First": 30, "Back": 77, "Play": 125, "Next": 173, "Last": 220}  # from the panel's left edge
+ROW = 84  # of the buttons, from the panel's upper edge
+AT = (SIZE[0] // 2, 300)  # on the globe, under the panel and over messages
+
+
+class Timeline(WindowTest):
+    def setUp(self):
+        super().setUp()
+        self.served = self.folder / "served"
+        for date, colour in zip(DATES, COLOURS):
+            for x in (0, 1):
+                (self.served / date / "0" / str(x)).mkdir(parents=True)
+                (self.served / date / "0" / str(x) / "0.png").write_bytes(pictures.png(64, 64, colour))
+        server = self.enterContext(servers.misbehaving(self.served, {}))
+        self.server = server
+        self.set = self.folder / "days.json"
+        self.set.write_text(json.dumps({
+            "url": f"{server.address}/{{time}}/{{z}}/{{x}}/{{y}}.png", "tile_px": 64, "max_level": 0,
+            "times": [f"{DATES[0]}/{DATES[-1]}/P1D"]}))
+
+    def begin(self, **more):
+        return self.start(self.set, "--unlit", "--camera", "0,0,1000000", **more)
+
+    def press(self, viewer, button):
+        viewer.panel("Dates")
+        viewer.settled()
+        left, top, *_ = viewer.panel("Dates")
+        viewer.click(left + BUTTONS[button], top + ROW)
+
+    def shows(self, viewer, name, day):
+        """Waits for a date's colour."""
+        self.picture(viewer, name, lambda picture: png.pixel(picture, *AT)[:3] == COLOURS[day])
+
+    def test_dates_are_stepped_and_played_twice(self):
+        viewer = self.begin()
+        self.shows(viewer, "newest", 3)
+        for k in range(2):
+            viewer.key("a")
+            self.press(viewer, "Back")
+            self.shows(viewer, f"back{k}", 2)
+            self.press(viewer, "First")
+            self.shows(viewer, f"first{k}", 0)
+            self.press(viewer, "Next")
+            self.shows(viewer, f"next{k}", 1)
+            self.press(viewer, "Last")
+            self.shows(viewer, f"last{k}", 3)
+            viewer.key("a")
+        asked = len(self.server.log())
+        viewer.key("a")
+        self.press(viewer, "Play")
+        self.shows(viewer, "played on", 0)
+        self.shows(viewer, "played to", 2)
+        self.press(viewer, "Play")
+        self.assertEqual(len(self.server.log()), asked, "dates that were shown are not asked for again")
+
+    def test_the_date_is_kept_and_returns(self):
+        viewer = self.begin()
+        viewer.key("a")
+        self.press(viewer, "First")
+        self.shows(viewer, "first", 0)
+        viewer.key("a")
+        viewer.quit()
+        session = json.loads((self.kept / "terrella" / "session.terrella").read_text(encoding="utf-8"))
+        self.assertEqual(session["layers"][0]["layer-time"], DATES[0])
+        self.shows(self.start(bare=False), "returned", 0)
+
+    def test_a_picture_without_dates_has_no_panel(self):
+        viewer = self.start("--unlit")
+        plain = viewer.settled()
+        viewer.key("a")
+        self.assertNotEqual(viewer.settled(), plain, "a message says what is missing")
+        self.assertNotIn("Dates", viewer.layout.panels)
+
+
+if __name__ == "__main__":
+    unittest.main()
