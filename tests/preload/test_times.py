@@ -75,8 +75,7 @@ class Times(PreloadTest):
             self.write("set.json", json.dumps(description).encode())
             for asked in (True, False):
                 before = len(self.server.requests())
-                done = self.run_program("render", "set.json", "-o", "a.png", "--size", "64x64",
-                                        env={"XDG_CACHE_HOME": str(self.folder / "user")})
+                done = self.run_program("render", "set.json", "-o", "a.png", "--size", "64x64")
                 self.assertEqual(done.returncode, DONE, done.stderr)
                 self.assertEqual(len(self.server.requests()) > before, asked, date)
 
