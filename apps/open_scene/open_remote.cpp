@@ -154,6 +154,12 @@ Result<std::shared_ptr<TileCache>> cache_of(const SourceOptions& options, const 
   if (!file) return go_without(file.error());
   auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb, say_without_cache);
   if (!cache && cache.error().cannot_write) return go_without(cache.error());
+  if (!cache && options.cache.empty() && options.remote.time != set.info.time) {
+    // The server's default time was another one when the file was made.
+    SourceOptions dated = options;
+    dated.remote.time = set.info.time;
+    return cache_of(dated, set, set.info.time);
+  }
   if (!cache) return cache.error();
   return *std::move(cache);
 }

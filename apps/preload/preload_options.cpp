@@ -90,6 +90,7 @@ void add_times_option(CLI::App& app, PreloadCommand& command) {
          "B (default: one time, as --layer-time says)")
       ->type_name("A/B/P1D[,...]")
       ->delimiter(',')
+      ->check(time_series())
       ->allow_extra_args(false);
 }
 

@@ -69,6 +69,16 @@ class Times(PreloadTest):
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertEqual(len(self.server.requests()), before)
 
+    def test_the_newest_time_of_another_day_has_a_cache_too(self):
+        for date in DATES[-2:]:
+            description = {"url": self.template, "times": [f"2026-06-01/{date}/P1D"], "max_level": LEVELS - 1}
+            self.write("set.json", json.dumps(description).encode())
+            for asked in (True, False):
+                before = len(self.server.requests())
+                done = self.run_program("render", "set.json", "-o", "a.png", "--size", "64x64")
+                self.assertEqual(done.returncode, DONE, done.stderr)
+                self.assertEqual(len(self.server.requests()) > before, asked, date)
+
     def test_killed_and_started_again(self):
         """No tile that is there is asked for again."""
         random.seed(20261129)
@@ -91,10 +101,12 @@ class Times(PreloadTest):
         self.assertGreater(len(set(map(len, there))), 2, "killed at different moments")
 
     def test_wrong_times_are_told(self):
-        for times, says in (("2026-05-30/2026-06-02/P1D", "its first time is 2026-06-01"), ("1999-01-01/1999-02-01", "no time there"),
-                            ("yesterday", "yesterday"), ("2026-06-04/2026-06-01", "ends before it begins")):
+        for code, times, says in ((FAILED, "2026-05-30/2026-06-02/P1D", "its first time is 2026-06-01"),
+                                  (FAILED, "1999-01-01/1999-02-01", "no time there"),
+                                  (WRONG_USAGE, "yesterday", "yesterday"), (WRONG_USAGE, "2026-06-01/2026-06-02/P0D", "P0D"),
+                                  (WRONG_USAGE, "2026-06-04/2026-06-01", "ends before it begins")):
             with self.subTest(times):
-                self.assert_fails(FAILED, "preload", self.template, "-o", self.cache, *self.words, "--times", times,
+                self.assert_fails(code, "preload", self.template, "-o", self.cache, *self.words, "--times", times,
                                   says=["--times", says])
         self.assert_fails(FAILED, "preload", self.server.template, "-o", self.cache, "--levels", "0-1", "--times",
                           "2026-06-01", says=["no times", "--times"])

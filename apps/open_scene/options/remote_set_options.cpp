@@ -1,9 +1,12 @@
 #include "apps/open_scene/options/remote_set_options.h"
 
+#include <chrono>
+#include <span>
 #include <string_view>
 
 #include "apps/open_scene/options/option_checks.h"
 #include "base/number.h"
+#include "base/time_steps.h"
 #include "streaming/http/http_headers.h"
 #include "tiles/tile_grid.h"
 
@@ -32,6 +35,16 @@ CLI::Validator is_time() {
 
 }  // namespace
 
+CLI::Validator time_series() {
+  return {[](const std::string& text) -> std::string {
+            using std::chrono::floor;
+            const UtcTime now = floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+            const auto read = TimeSteps::parse(std::span(&text, 1), now);
+            return read ? std::string() : read.error().message;
+          },
+          ""};
+}
+
 void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer", remote.layer, "Choose the WMTS or WMS layer");
   app.add_option("--matrix-set", remote.matrix_set, "Choose the tile matrix set if the WMTS layer has several");
@@ -42,6 +55,7 @@ void add_remote_set_options(CLI::App& app, RemoteOptions& remote) {
   app.add_option("--layer-times", remote.times, "Set the times of a URL template with {time} or {time:%Y-%m-%d}")
       ->type_name("A/B/P1D[,...]")
       ->delimiter(',')
+      ->check(time_series())
       ->allow_extra_args(false);
   app.add_option("--root-span", remote.root_span_deg,
                  "Set the degrees that a level-0 tile of a URL template or WMS spans (default: 180)")
