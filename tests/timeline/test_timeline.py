@@ -16,7 +16,7 @@ import servers  # noqa: E402
 COLOURS = [(200, 0, 0), (0, 200, 0), (0, 0, 200), (200, 200, 0)]
 DATES = [f"2020-01-{day:02}" for day in range(1, 1 + len(COLOURS))]
 BUTTONS = {"First": 30, "Back": 77, "Play": 125, "Next": 173, "Last": 220}  # from the panel's left edge
-ROW = 84  # of the buttons, from the panel's upper edge
+ROW = 84  # pixels from the panel's upper edge to the buttons
 AT = (SIZE[0] // 2, 300)  # on the globe, under the panel and over messages
 
 

@@ -29,7 +29,7 @@ class JoinedSteps {
   std::vector<std::shared_ptr<const TimeSteps>> layers_;
 };
 
-/// How steps are played.
+/// The direction and the end of a play.
 struct StepPlay {
   bool backwards = false;
   bool loops = true;

@@ -65,7 +65,7 @@ RemoveStep Layers::removal_of(const LayerRow& row) const {
   step.place = std::size_t(std::ranges::find(ids, step.row.id) - ids.begin());
   if (kind == LayerKind::heights) step.heights = heights_;
   if (kind == LayerKind::imagery) {
-    if (const auto shown = globe.source(row.id)) step.row.tiles = *shown;  // of the date that is shown
+    if (const auto shown = globe.source(row.id)) step.row.tiles = *shown;  // the date that is shown
   }
   if (is_growing(step.row)) step.row.tiles.reset();
   return step;
