@@ -114,10 +114,11 @@ class Globe {
   [[nodiscard]] Result<std::shared_ptr<TileSource>> source(LayerId imagery) const;
   /// Shows an image layer at a time in UTC: at the last instant of its source (TileSetInfo::steps) at or before it. The
   /// tiles come and appear as those of set_source(). Nothing happens if that instant is shown or on its way. If no tile
-  /// in view exists at that instant, up to three earlier instants are tried, and missing_instants() names it. The
-  /// instants asked for before, two at most, go on loading into their caches; one that is complete before the wanted
-  /// one appears meanwhile. Fails if the globe does not have the image layer, if its source has no instants, or if the
-  /// time is before the first, which the error names. Takes milliseconds.
+  /// in view exists or can be had at that instant, up to three earlier instants are tried, and missing_instants() names
+  /// it; a later call tries it again. The instants asked for before, two at most, go on loading into their caches; one
+  /// that is complete before the wanted one appears meanwhile. Fails if the globe does not have the image layer, if its
+  /// source has no instants, or if the time is before the first, which the error names. May open a cache: takes
+  /// milliseconds, or seconds while another program writes to that cache.
   Status set_layer_time(LayerId imagery, UtcTime time);
   /// Returns the instants of an image layer. Fails if the globe does not have the image layer.
   [[nodiscard]] Result<LayerTime> layer_time(LayerId imagery) const;

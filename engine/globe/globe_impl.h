@@ -57,8 +57,10 @@ struct Globe::Impl {
   [[nodiscard]] ImageLayer* newest_coming(const ImageLayer& shown) const;
   /// True if a layer that is not in place will not take its place, because a later one did.
   [[nodiscard]] bool is_late(const ImageLayer& layer) const;
-  void drop_late(LayerId id);  ///< all but the latest few that are on their way
+  void drop_late(LayerId id);  ///< drops all coming layers but the latest three
   [[nodiscard]] Status ask_for_time(const ImageLayer& shown, UtcTime time, const SourceTurn& turn);
+  /// Gives the turn to the layer of a step that is on its way already; else asks for the step.
+  [[nodiscard]] Status ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn);
   void note_missing(const ImageLayer& lacking, UtcTime instant);
   /// Names the instant of a layer without a tile in view, and asks for an earlier one.
   void step_back(const ImageLayer& lacking);

@@ -102,23 +102,23 @@ void Globe::Impl::drop_coming(LayerId id) {
 void Globe::Impl::put_in_place() {
   const auto is_due = [this](const auto& layer) { return layer->is_ready() || !image(layer->id())->is_drawn(sides()); };
   if (std::ranges::none_of(coming, is_due)) return;
-  std::vector<std::unique_ptr<ImageLayer>> gone;
+  std::vector<std::unique_ptr<ImageLayer>> gone, lacking;
   for (auto& layer : coming) {
     if (!is_due(layer)) continue;
+    const bool lacks = layer->is_void();
     const auto place = std::ranges::find(images, layer->id(), [](const auto& one) { return one->id(); });
-    if (!layer->is_void() && !is_late(*layer)) {
+    if (!lacks && !is_late(*layer)) {
       layer->set_look((*place)->look());
       place->swap(layer);
       for (GlobeView::Impl* view : views) view->is_behind = true;
     }
     forget_views_of(*layer);
-    gone.push_back(std::move(layer));
+    (lacks ? lacking : gone).push_back(std::move(layer));
   }
   std::erase(coming, nullptr);
-  for (const auto& layer : gone) {
-    if (layer->is_void()) step_back(*layer);
-  }
+  for (const auto& layer : lacking) step_back(*layer);
   gone.clear();
+  lacking.clear();
   share_gpu();
   restore_detail();
 }
@@ -236,6 +236,9 @@ Status Globe::set_attribution(LayerId layer, std::string text) {
   }
   ImageLayer* image = impl_->image(layer);
   if (image == nullptr) return no_layer("Globe::set_attribution", "layer", layer);
+  for (const auto& other : impl_->coming) {
+    if (other->id() == layer) other->set_attribution(text);
+  }
   image->set_attribution(std::move(text));
   return Done{};
 }

@@ -8,7 +8,7 @@ namespace {
 
 /// Layers that may be on their way to one place. Each takes its share of the GPU's memory.
 constexpr std::size_t kMostComing = 3;
-/// Earlier instants that are tried in place of one without a tile in view. In polar night all are.
+/// Earlier instants that are tried in place of one without a tile in view. In polar night every one is missing.
 constexpr int kMostStepsBack = 3;
 constexpr std::size_t kMostMissingInstants = 64;
 
@@ -57,6 +57,15 @@ Status Globe::Impl::ask_for_time(const ImageLayer& shown, UtcTime time, const So
   return Done{};
 }
 
+Status Globe::Impl::ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn) {
+  const auto known = std::ranges::find_if(coming, [&](const auto& layer) {
+    return layer->id() == shown.id() && instant_of(*layer) == std::optional(step);
+  });
+  if (known == coming.end()) return ask_for_time(shown, step, turn);
+  (*known)->set_turn(turn);
+  return Done{};
+}
+
 Status Globe::Impl::go_to_time(ImageLayer& shown, UtcTime time) {
   const SourceTurn turn{.number = turns + 1};
   const TileSetInfo& info = shown.source()->info();
@@ -66,13 +75,9 @@ Status Globe::Impl::go_to_time(ImageLayer& shown, UtcTime time) {
   const auto is_there = [&](const ImageLayer& layer) { return instant_of(layer) == std::optional(step); };
   const ImageLayer* newest = newest_coming(shown);
   if (is_there(newest == nullptr ? shown : *newest)) return Done{};
-  const auto known =
-      std::ranges::find_if(coming, [&](const auto& layer) { return layer->id() == shown.id() && is_there(*layer); });
   if (is_there(shown)) {
     shown.set_turn(turn);
-  } else if (known != coming.end()) {
-    (*known)->set_turn(turn);
-  } else if (Status asked = ask_for_time(shown, time, turn); !asked) {
+  } else if (Status asked = ask_for_step(shown, step, turn); !asked) {
     return asked;
   }
   turns = turn.number;
@@ -98,7 +103,7 @@ void Globe::Impl::step_back(const ImageLayer& lacking) {
   if (!is_wanted || !earlier || turn.steps_back > kMostStepsBack) return;
   if (instant_of(*shown) == std::optional(*earlier)) return;
   // A source that cannot be made leaves the layer as it is: the missing instant is named.
-  static_cast<void>(ask_for_time(*shown, *earlier, turn));
+  static_cast<void>(ask_for_step(*shown, *earlier, turn));
 }
 
 Status Globe::set_layer_time(LayerId imagery, UtcTime time) {

@@ -31,7 +31,7 @@ struct LayerSetup {
   std::shared_ptr<ArrivalBell> bell;  ///< rings when a tile has arrived
 };
 
-/// The place of a source among all that a globe was asked for.
+/// Order in which the globe was asked for a source.
 struct SourceTurn {
   std::uint64_t number = 0;  ///< rises with each call
   int steps_back = 0;        ///< instants that were missing before this one was tried

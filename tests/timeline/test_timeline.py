@@ -38,6 +38,10 @@ class Timeline(WindowTest):
     def begin(self, **more):
         return self.start(self.set, "--unlit", "--camera", "0,0,1000000", **more)
 
+    def session(self):
+        """The layer in the file of the session."""
+        return json.loads((self.kept / "terrella" / "session.terrella").read_text(encoding="utf-8"))["layers"][0]
+
     def press(self, viewer, button):
         viewer.panel("Dates")
         viewer.settled()
@@ -69,6 +73,11 @@ class Timeline(WindowTest):
         self.shows(viewer, "played to", 2)
         self.press(viewer, "Play")
         self.assertEqual(len(self.server.log()), asked, "dates that were shown are not asked for again")
+        self.press(viewer, "Last")
+        self.shows(viewer, "last", 3)
+        viewer.key("a")
+        viewer.quit()
+        self.assertNotIn("layer-time", self.session(), "a layer at its newest date shows a newer one at the next start")
 
     def test_the_date_is_kept_and_returns(self):
         viewer = self.begin()
@@ -77,8 +86,7 @@ class Timeline(WindowTest):
         self.shows(viewer, "first", 0)
         viewer.key("a")
         viewer.quit()
-        session = json.loads((self.kept / "terrella" / "session.terrella").read_text(encoding="utf-8"))
-        self.assertEqual(session["layers"][0]["layer-time"], DATES[0])
+        self.assertEqual(self.session()["layer-time"], DATES[0])
         self.shows(self.start(bare=False), "returned", 0)
 
     def test_a_picture_without_dates_has_no_panel(self):

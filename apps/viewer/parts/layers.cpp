@@ -24,12 +24,14 @@ namespace {
 constexpr double kLegendGap = 0.8;    // in text heights, to the window's edge and the status line
 constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 
-/// The source of a layer, with the instant and the colours that it has now.
+/// The source of a layer with the colours that it has now, and with its instant if that is not the one of the start: a
+/// layer that shows the newest date shows a newer one at the next start.
 SourceOptions described(const Globe& globe, const LayerRow& row) {
   SourceOptions source = row.source;
   const auto time = globe.layer_time(row.id);
   const auto instant = time ? (time->coming ? time->coming : time->shown) : std::nullopt;
-  if (instant && row.tiles && row.tiles->info().steps) source.remote.time = row.tiles->info().steps->text(*instant);
+  if (instant && row.tiles && row.tiles->info().steps && instant != row.tiles->info().instant)
+    source.remote.time = row.tiles->info().steps->text(*instant);
   if (!row.numbers || !row.look.numbers) return source;
   source.numbers.colormap = row.numbers->colormap;
   source.numbers.lit = row.look.numbers->lit;

@@ -28,6 +28,13 @@ JoinedSteps joined(const std::vector<TimedLayer>& layers) {
   return JoinedSteps(std::move(steps));
 }
 
+std::vector<LayerId> ids_of(const std::vector<TimedLayer>& layers) {
+  std::vector<LayerId> ids;
+  ids.reserve(layers.size());
+  for (const TimedLayer& layer : layers) ids.push_back(layer.id);
+  return ids;
+}
+
 }  // namespace
 
 std::vector<std::string> Timeline::shown() const {
@@ -43,7 +50,7 @@ std::vector<std::string> Timeline::shown() const {
 }
 
 UtcTime Timeline::now(const std::vector<TimedLayer>& layers) const {
-  if (asked_) return *asked_;
+  if (asked_ && ids_of(layers) == asked_of_) return *asked_;
   const auto time = context_.globe.layer_time(layers.front().id);
   return time && time->shown ? *time->shown : layers.front().steps->last();
 }
@@ -56,15 +63,17 @@ bool Timeline::is_coming() const {
 }
 
 void Timeline::go(UtcTime time) {
-  asked_ = time;
+  const std::vector<TimedLayer> layers = layers_();
   stepped_ = Input::now();
-  for (const TimedLayer& layer : layers_()) {
+  for (const TimedLayer& layer : layers) {
     if (!layer.steps->at_or_before(time)) continue;  // a layer that begins later stays as it is
     if (const Status set = context_.globe.set_layer_time(layer.id, time); !set) {
       playing_ = false;
-      say(set.error().message);
+      return say(set.error().message);
     }
   }
+  asked_ = time;
+  asked_of_ = ids_of(layers);
 }
 
 void Timeline::step(bool backwards) {
@@ -92,7 +101,7 @@ void Timeline::advance(Seconds now_s) {
 bool Timeline::changed() const { return playing_ && seconds_left(kLongestStep_s) <= 0.0 && !is_coming(); }
 
 double Timeline::seconds_left(double most_s) const {
-  if (!playing_) return most_s;
+  if (!playing_ || is_coming()) return most_s;  // tiles that come wake the window
   const double step_s = 1.0 / kStepSpeeds[static_cast<std::size_t>(speed_)];
   return std::clamp(step_s - (Input::now() - stepped_).count(), 0.0, most_s);
 }
@@ -123,19 +132,24 @@ void Timeline::draw_contents(const std::vector<TimedLayer>& layers) {
   draw_choices();
 }
 
+// A date is asked for when the slider is let go: each date passed would be requests.
 void Timeline::draw_slider(const JoinedSteps& steps) {
-  const UtcTime from = steps.first(), to = steps.last(), at = now(layers_());
+  const UtcTime from = steps.first(), to = steps.last();
+  const auto step_at = [&](double share) {
+    return steps.at_or_before(from + std::chrono::duration_cast<UtcTime::duration>((to - from) * share)).value_or(from);
+  };
+  const UtcTime at = dragged_ ? step_at(*dragged_) : now(layers_());
   double share = from == to ? 1.0 : double((at - from).count()) / double((to - from).count());
+  if (dragged_) share = *dragged_;
   constexpr double kStart = 0.0, kEnd = 1.0;
   ImGui::SetNextItemWidth(-1.0F);
   const std::string text = step_text(at, local_);
   if (ImGui::SliderScalar("##date", ImGuiDataType_Double, &share, &kStart, &kEnd, text.c_str(),
                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput)) {
-    const auto wanted = from + std::chrono::duration_cast<UtcTime::duration>((to - from) * share);
-    const auto step = steps.at_or_before(wanted);
+    dragged_ = share;
     playing_ = false;
-    if (step && *step != at) go(*step);
   }
+  if (ImGui::IsItemDeactivated() && dragged_) go(step_at(*std::exchange(dragged_, std::nullopt)));
   tip(fmt::format("{} to {}", step_text(from, local_), step_text(to, local_)));
 }
 

@@ -49,12 +49,14 @@ class Timeline : public Panel {
   void play(bool on);
   void step(bool backwards);
   void go(UtcTime time);
-  /// The instant that was asked for last; at first that of the highest layer.
+  /// The instant that was asked for last of these layers; else the one that the highest layer shows.
   [[nodiscard]] UtcTime now(const std::vector<TimedLayer>& layers) const;
   [[nodiscard]] bool is_coming() const;
 
   std::function<std::vector<TimedLayer>()> layers_;
-  std::optional<UtcTime> asked_;
+  std::optional<UtcTime> asked_;   ///< the instant that was asked for last
+  std::vector<LayerId> asked_of_;  ///< the layers that there were then
+  std::optional<double> dragged_;  ///< place of the slider while it is held, from 0 to 1
   StepPlay play_;
   bool playing_ = false, local_ = false;
   int speed_ = 1;         ///< index of the speeds

@@ -43,6 +43,7 @@ struct MoveStep {
 struct RemoveStep {
   LayerRow row;
   std::size_t place = 0;                        ///< number of layers of its kind under it
+  std::shared_ptr<TileSource> shown = {};       ///< for imagery: the tiles of the date that it showed
   std::optional<ElevationSource> heights = {};  ///< for heights
   std::optional<LayerStyle::Drawn> style = {};  ///< for objects with a style
 };

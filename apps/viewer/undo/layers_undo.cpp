@@ -64,10 +64,11 @@ RemoveStep Layers::removal_of(const LayerRow& row) const {
   const auto ids = kind == LayerKind::objects ? globe.objects() : globe.imagery();
   step.place = std::size_t(std::ranges::find(ids, step.row.id) - ids.begin());
   if (kind == LayerKind::heights) step.heights = heights_;
-  if (kind == LayerKind::imagery) {
-    if (const auto shown = globe.source(row.id)) step.row.tiles = *shown;  // the date that is shown
-  }
   if (is_growing(step.row)) step.row.tiles.reset();
+  if (kind == LayerKind::imagery && step.row.tiles) {
+    const auto shown = globe.source(row.id);
+    step.shown = shown ? *shown : step.row.tiles;
+  }
   return step;
 }
 
@@ -122,7 +123,7 @@ Status Layers::bring_back(RemoveStep& step) {
   if (row.kind == LayerKind::imagery && !row.tiles) return Error{row.name + " was not cut to the end: open it again"};
   Globe& globe = context_.globe;
   if (row.kind == LayerKind::imagery) {
-    const auto added = globe.add_imagery(row.tiles, row.look);
+    const auto added = globe.add_imagery(step.shown, row.look);
     if (!added) return added.error();
     row.id = *added;
   } else if (Status read = read_again(row, step.style); !read) {
