@@ -120,6 +120,11 @@ class Globe {
   /// source has no instants, or if the time is before the first, which the error names. May open a cache: takes
   /// milliseconds, or seconds while another program writes to that cache.
   Status set_layer_time(LayerId imagery, UtcTime time);
+  /// Loads the tiles in view of an image layer at a time that set_layer_time() will show later, for example the next
+  /// instant in the direction of play. They follow the view and take a share of the GPU's memory, until
+  /// set_layer_time() shows them in the next frame, or until another call replaces them. None: drops them. Nothing
+  /// happens if that instant is shown or on its way. Fails as set_layer_time() does.
+  Status load_layer_time(LayerId imagery, std::optional<UtcTime> time);
   /// Returns the instants of an image layer. Fails if the globe does not have the image layer.
   [[nodiscard]] Result<LayerTime> layer_time(LayerId imagery) const;
   /// Returns the latest 64 instants that set_layer_time() found missing, in order of time of the finding.

@@ -50,9 +50,11 @@ struct Globe::Impl {
                                                                const ImageLook& look);
   void forget_views_of(const ImageLayer& image);  ///< in the stacks of all views
   void drop_coming(LayerId id);                   ///< the layers that would take the place of this one
+  void drop_ahead(LayerId id);                    ///< the layer of a time that nobody has asked to see yet
   void put_in_place();                            ///< puts layers in place whose tiles have come
   // Instants of layers (globe_times.cpp).
   [[nodiscard]] Status go_to_time(ImageLayer& shown, UtcTime time);
+  [[nodiscard]] Status load_ahead(const ImageLayer& shown, UtcTime time);
   /// The layer that takes the place of this one last; null: none, or one that only fills its cache.
   [[nodiscard]] ImageLayer* newest_coming(const ImageLayer& shown) const;
   /// True if a layer that is not in place will not take its place, because a later one did.

@@ -98,9 +98,19 @@ void Globe::Impl::drop_coming(LayerId id) {
   if (std::erase_if(coming, is_for) > 0) share_gpu();
 }
 
+void Globe::Impl::drop_ahead(LayerId id) {
+  const auto is_it = [id](const auto& layer) { return layer->id() == id && layer->turn().is_ahead; };
+  for (const auto& layer : coming) {
+    if (is_it(layer)) forget_views_of(*layer);
+  }
+  if (std::erase_if(coming, is_it) > 0) share_gpu();
+}
+
 // A layer that is not drawn needs no tiles to be in place.
 void Globe::Impl::put_in_place() {
-  const auto is_due = [this](const auto& layer) { return layer->is_ready() || !image(layer->id())->is_drawn(sides()); };
+  const auto is_due = [this](const auto& layer) {
+    return !layer->turn().is_ahead && (layer->is_ready() || !image(layer->id())->is_drawn(sides()));
+  };
   if (std::ranges::none_of(coming, is_due)) return;
   std::vector<std::unique_ptr<ImageLayer>> gone, lacking;
   for (auto& layer : coming) {

@@ -44,9 +44,10 @@ void Globe::Impl::drop_late(LayerId id) {
 }
 
 Status Globe::Impl::ask_for_time(const ImageLayer& shown, UtcTime time, const SourceTurn& turn) {
+  const char* call = turn.is_ahead ? "Globe::load_layer_time" : "Globe::set_layer_time";
   auto source = shown.source()->at_time(time);
-  if (!source) return Error{"Globe::set_layer_time: " + source.error().message};
-  auto layer = make_image("Globe::set_layer_time", shown.id(), *std::move(source), shown.look());
+  if (!source) return Error{std::string(call) + ": " + source.error().message};
+  auto layer = make_image(call, shown.id(), *std::move(source), shown.look());
   if (!layer) return layer.error();
   (*layer)->set_turn(turn);
   (*layer)->set_attribution(shown.attribution());
@@ -85,6 +86,19 @@ Status Globe::Impl::go_to_time(ImageLayer& shown, UtcTime time) {
   return Done{};
 }
 
+Status Globe::Impl::load_ahead(const ImageLayer& shown, UtcTime time) {
+  const TileSetInfo& info = shown.source()->info();
+  const std::optional<UtcTime> step = info.steps ? info.steps->at_or_before(time) : std::nullopt;
+  const auto is_there = [&](const ImageLayer& layer) {
+    return layer.id() == shown.id() && step && instant_of(layer) == step;
+  };
+  const bool is_coming = std::ranges::any_of(coming, [&](const auto& layer) { return is_there(*layer); });
+  if (is_coming || is_there(shown)) return Done{};
+  drop_ahead(shown.id());
+  changed = true;
+  return ask_for_time(shown, time, {.is_ahead = true});
+}
+
 void Globe::Impl::note_missing(const ImageLayer& lacking, UtcTime instant) {
   const auto tile = std::ranges::find(missing.rbegin(), missing.rend(), lacking.id(), &MissingTile::layer);
   missing_instants.push_back({lacking.id(), instant, tile == missing.rend() ? "" : tile->failure.why});
@@ -113,6 +127,16 @@ Status Globe::set_layer_time(LayerId imagery, UtcTime time) {
   if (shown == nullptr) return no_layer("Globe::set_layer_time", "image layer", imagery);
   if (Status gone = impl_->go_to_time(*shown, time); !gone) return gone;
   impl_->put_in_place();
+  return Done{};
+}
+
+Status Globe::load_layer_time(LayerId imagery, std::optional<UtcTime> time) {
+  const auto call = impl_->may_draw("Globe::load_layer_time");
+  if (!call) return call.error();
+  const ImageLayer* shown = impl_->image(imagery);
+  if (shown == nullptr) return no_layer("Globe::load_layer_time", "image layer", imagery);
+  if (time) return impl_->load_ahead(*shown, *time);
+  impl_->drop_ahead(imagery);
   return Done{};
 }
 

@@ -35,6 +35,7 @@ struct LayerSetup {
 struct SourceTurn {
   std::uint64_t number = 0;  ///< rises with each call
   int steps_back = 0;        ///< instants that were missing before this one was tried
+  bool is_ahead = false;     ///< loaded before it is asked for, with the number 0
 };
 
 /// One image layer of a globe: its tiles from the source to the GPU. Its views draw patches with them. thread: main

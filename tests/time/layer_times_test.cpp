@@ -203,6 +203,32 @@ TEST_F(LayerTimes, ALateDateGivesWayToALaterWish) {
   EXPECT_EQ(*globe_->source(layer_), source) << "nothing happens for an instant that is shown";
 }
 
+TEST_F(LayerTimes, ADateThatIsLoadedAheadAppearsInTheNextFrame) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  settle(*globe_, kTimes);
+  const auto before = shown();
+  ASSERT_TRUE(globe_->load_layer_time(layer_, date(5)));
+  settle(*globe_, kTimes);
+  draw_checked();
+  EXPECT_EQ(shown(), before) << "nobody has asked to see it";
+  EXPECT_FALSE(globe_->awaits_source(layer_));
+  const std::string asked = server_->asked();
+  EXPECT_THAT(asked, HasSubstr(date_text(5)));
+  ASSERT_TRUE(globe_->set_layer_time(layer_, date(5)));
+  draw_checked();
+  EXPECT_EQ(shown(), date(5));
+  EXPECT_EQ(server_->asked(), asked);
+  // The direction turns: what is late goes with the next wish, and nothing of it is shown or named.
+  ASSERT_TRUE(globe_->load_layer_time(layer_, date(kLate)));
+  draw_checked();
+  ASSERT_TRUE(globe_->load_layer_time(layer_, date(4)));
+  settle(*globe_, kTimes);
+  ASSERT_TRUE(globe_->load_layer_time(layer_, std::nullopt));
+  draw_checked();
+  EXPECT_EQ(shown(), date(5));
+  EXPECT_THAT(globe_->missing_instants(), IsEmpty());
+}
+
 TEST_F(LayerTimes, AnswersSayWhatIsWrong) {
   ASSERT_NO_FATAL_FAILURE(begin());
   EXPECT_THAT(globe_->set_layer_time(LayerId{99}, date(1)).error().message, HasSubstr("Globe::set_layer_time"));

@@ -68,7 +68,7 @@ void Timeline::go(UtcTime time) {
   for (const TimedLayer& layer : layers) {
     if (!layer.steps->at_or_before(time)) continue;  // a layer that begins later stays as it is
     if (const Status set = context_.globe.set_layer_time(layer.id, time); !set) {
-      playing_ = false;
+      play(false);
       return say(set.error().message);
     }
   }
@@ -79,7 +79,7 @@ void Timeline::go(UtcTime time) {
 void Timeline::step(bool backwards) {
   const std::vector<TimedLayer> layers = layers_();
   if (layers.empty()) return;
-  playing_ = false;
+  play(false);
   if (const auto next = next_step(joined(layers), now(layers), {.backwards = backwards, .loops = play_.loops}))
     go(*next);
 }
@@ -87,11 +87,21 @@ void Timeline::step(bool backwards) {
 void Timeline::play(bool on) {
   playing_ = on;
   stepped_ = Input::now();
+  if (on) return;
+  for (const TimedLayer& layer : layers_()) static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
+}
+
+// A failure is told when the instant is asked for.
+void Timeline::load_next(const std::vector<TimedLayer>& layers) {
+  const auto next = layers.empty() ? std::nullopt : next_step(joined(layers), now(layers), play_);
+  if (!next) return;
+  for (const TimedLayer& layer : layers) static_cast<void>(context_.globe.load_layer_time(layer.id, next));
 }
 
 void Timeline::advance(Seconds now_s) {
-  if (!playing_ || seconds_left(kLongestStep_s) > 0.0 || is_coming()) return;
+  if (!playing_ || is_coming()) return;
   const std::vector<TimedLayer> layers = layers_();
+  if (seconds_left(kLongestStep_s) > 0.0) return load_next(layers);
   const auto next = layers.empty() ? std::nullopt : next_step(joined(layers), now(layers), play_);
   if (!next) return play(false);
   go(*next);
@@ -147,7 +157,7 @@ void Timeline::draw_slider(const JoinedSteps& steps) {
   if (ImGui::SliderScalar("##date", ImGuiDataType_Double, &share, &kStart, &kEnd, text.c_str(),
                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput)) {
     dragged_ = share;
-    playing_ = false;
+    if (playing_) play(false);
   }
   if (ImGui::IsItemDeactivated() && dragged_) go(step_at(*std::exchange(dragged_, std::nullopt)));
   tip(fmt::format("{} to {}", step_text(from, local_), step_text(to, local_)));

@@ -47,6 +47,7 @@ class Timeline : public Panel {
   void draw_choices();
   void draw_dates(const std::vector<TimedLayer>& layers) const;
   void play(bool on);
+  void load_next(const std::vector<TimedLayer>& layers);  ///< loads the instant that the play shows next
   void step(bool backwards);
   void go(UtcTime time);
   /// The instant that was asked for last of these layers; else the one that the highest layer shows.
