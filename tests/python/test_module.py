@@ -363,7 +363,7 @@ class Globes(ModuleTest):
                 globe.set_layer_time(layer, time)
         still = globe.add_imagery(NATURAL_EARTH)
         self.assertEqual((globe.layer_times(still), globe.layer_time(still)), ([], None))
-        with self.assertRaisesRegex(terrella.Error, "no times are known"):
+        with self.assertRaisesRegex(terrella.Error, "no list of times"):
             globe.set_layer_time(still, "2026-06-01")
 
     def test_layers_added_later_are_those_of_the_scene(self):
