@@ -125,9 +125,12 @@ Result<std::shared_ptr<TileSource>> open_offline(const SourceOptions& named) {
   const auto file = cache_file_at(options, *time, *time);
   if (!file) return file.error();
   std::error_code failed;
-  if (!fs::exists(*file, failed)) {
-    auto dated = options.cache.empty() ? std::shared_ptr<TileSource>() : open_dated_caches(options.cache, *time);
+  const bool there = fs::exists(*file, failed);
+  if (!options.cache.empty() && (!there || *file != options.cache)) {
+    auto dated = open_dated_caches(options.cache, *time);
     if (!dated || *dated) return dated;
+  }
+  if (!there) {
     return Error{
         fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
                     "--offline",
