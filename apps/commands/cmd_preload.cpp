@@ -115,22 +115,27 @@ Status check_room(const PreloadCommand& command, const PreloadSource& source, co
   return Done{};
 }
 
-int release(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+Result<ReleaseReport> release_tiles(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
   std::error_code unknown;
-  if (!std::filesystem::exists(command.output, unknown)) return fail("preload", command.output + ": no such file");
+  if (!std::filesystem::exists(command.output, unknown)) return Error{command.output + ": no such file"};
   const auto cache = cache_of(command, source);
-  if (!cache) return fail("preload", cache.error().message);
+  if (!cache) return cache.error();
   const auto released = pin_planned(plan, **cache, false);
-  if (!released) return fail("preload", released.error().message);
-  if (command.json) {
-    print_result("{}", to_json(ReleaseReport{command.output, *released}));
-  } else {
+  if (!released) return released.error();
+  if (!command.json) {
     print_result("{}: {} tiles released; viewers with --cache-size may evict them\n", command.output, *released);
   }
+  return ReleaseReport{command.output, *released};
+}
+
+int release(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  const auto report = release_tiles(command, source, plan);
+  if (!report) return fail("preload", report.error().message);
+  if (command.json) print_result("{}", to_json(*report));
   return kDone;
 }
 
-/// `sample`: as taken of an instant before; none: takes one.
+/// Sample of an earlier instant; takes a new one if empty.
 Result<PreloadForecast> forecast(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan,
                                  const std::optional<SizeSample>& sample = {}) {
   PreloadForecast forecast{.levels = plan.counts(), .sample = {}, .no_room = {}};
@@ -261,16 +266,17 @@ class ManyTimes {
 
   int run(const std::vector<UtcTime>& instants, std::optional<WaitLimit>& limit) {
     if (command_.dry_run) return print_forecast(command_, forecast_all(instants));
+    if (command_.release) return release_all(instants);
     int code = kDone;
     for (const UtcTime instant : instants) {
       const auto source = source_at(source_, instant, http_);
-      if (!source) return fail("preload", source.error().message);
-      const int one = load(command_at(command_, source->set.info.time), *source, limit);
-      if (one == kFailed) return one;
+      const int one = source ? load(command_at(command_, source->set.info.time), *source, limit)
+                             : fail("preload", source.error().message);
       if (one != kDone) code = one;
-      if (ends_) break;
+      if (one == kFailed || ends_) break;
     }
-    if (command_.json && !command_.release) print_result("{}", to_json(reports_));
+    // A failure leaves the reports of the instants before it.
+    if (command_.json && !reports_.empty()) print_result("{}", to_json(reports_));
     return code;
   }
 
@@ -294,8 +300,33 @@ class ManyTimes {
     return all;
   }
 
+  /// Passes over instants without a file, unless none has one.
+  int release_all(const std::vector<UtcTime>& instants) {
+    std::vector<ReleaseReport> reports;
+    std::string absent;
+    int code = kDone;
+    for (const UtcTime instant : instants) {
+      const auto source = source_at(source_, instant, http_);
+      if (!source) return fail("preload", source.error().message);
+      const PreloadCommand command = command_at(command_, source->set.info.time);
+      std::error_code unknown;
+      if (!std::filesystem::exists(command.output, unknown)) {
+        if (absent.empty()) absent = command.output;
+        continue;
+      }
+      auto report = release_tiles(command, *source, plan_);
+      if (!report) {
+        code = fail("preload", report.error().message);
+        break;
+      }
+      reports.push_back(*std::move(report));
+    }
+    if (reports.empty() && code == kDone) return fail("preload", absent + ": no such file");
+    if (command_.json && !reports.empty()) print_result("{}", to_json(reports));
+    return code;
+  }
+
   int load(const PreloadCommand& command, const PreloadSource& source, std::optional<WaitLimit>& limit) {
-    if (command.release) return release(command, source, plan_);
     if (const Status room = check_room(command, source, plan_); !room) return fail("preload", room.error().message);
     limit.reset();
     auto brought = bring(command, source, plan_);
@@ -321,7 +352,7 @@ class ManyTimes {
 Result<std::vector<UtcTime>> instants_of(const PreloadCommand& command, const PreloadSource& source) {
   if (command.times.empty()) return std::vector<UtcTime>();
   const auto& steps = source.set.info.steps;
-  if (!steps) return Error{command.source.redacted() + ": no times are known of it; leave --times out"};
+  if (!steps) return Error{command.source.redacted() + ": has no list of times; omit --times"};
   return preload_instants(command.times, *steps);
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/open_scene/dated_caches.h"
 #include "apps/open_scene/fetch_description.h"
 #include "apps/open_scene/open_cache.h"
 #include "apps/open_scene/open_imagery.h"
@@ -66,16 +67,20 @@ Result<fs::path> cache_file(const SourceOptions& options) {
   return *folder / cache_name(options);
 }
 
-/// The cache of a set at a time. The file that --cache names belongs to the time at which the set was opened, unless
-/// there is only one of that time as preload writes it; other times have files beside it.
-Result<fs::path> cache_file_at(SourceOptions options, const std::string& time, const std::string& opened) {
-  if (options.cache.empty()) {
-    if (time != opened) options.remote.time = time;
-    return cache_file(options);
-  }
-  const fs::path named = options.cache, dated = file_of_time(named, time);
+/// The cache for one time of a set only: beside the file that --cache names, else in the user's cache folder.
+Result<fs::path> dated_file(SourceOptions options, const std::string& time) {
+  if (!options.cache.empty()) return file_of_time(options.cache, time);
+  options.remote.time = time;
+  return cache_file(options);
+}
+
+/// The cache of a set at a time. An existing file for that time only comes first, as preload writes it. Else the time
+/// at which the set was opened, `opened`, has the plain file.
+Result<fs::path> cache_file_at(const SourceOptions& options, const std::string& time, const std::string& opened) {
+  auto dated = dated_file(options, time);
   std::error_code failed;
-  return time == opened && (time.empty() || fs::exists(named, failed) || !fs::exists(dated, failed)) ? named : dated;
+  if (!dated || time != opened || fs::exists(*dated, failed)) return dated;
+  return cache_file(options);
 }
 
 /// Opens a TIFF on a server.
@@ -101,7 +106,8 @@ Result<std::shared_ptr<TileSource>> open_tiff(const SourceOptions& options, cons
   return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
-/// The time of a URL template, and what was asked for of another set.
+/// The time of a set that is opened offline: that of a URL template is known from its options; of other sets it is
+/// --layer-time, empty if not given.
 Result<std::string> time_of(const SourceOptions& options) {
   if (!is_template(options)) return options.remote.time;
   RemoteOptions remote = options.remote;
@@ -119,7 +125,12 @@ Result<std::shared_ptr<TileSource>> open_offline(const SourceOptions& named) {
   const auto file = cache_file_at(options, *time, *time);
   if (!file) return file.error();
   std::error_code failed;
-  if (!fs::exists(*file, failed)) {
+  const bool there = fs::exists(*file, failed);
+  if (!options.cache.empty() && (!there || *file != options.cache)) {
+    auto dated = open_dated_caches(options.cache, *time);
+    if (!dated || *dated) return dated;
+  }
+  if (!there) {
     return Error{
         fmt::format("{}: nothing of it is in a cache ({} is not there); look at it or preload it once without "
                     "--offline",
@@ -152,14 +163,16 @@ Result<std::shared_ptr<TileCache>> cache_of(const SourceOptions& options, const 
   if (options.cache == "off") return std::shared_ptr<TileCache>();
   const auto file = cache_file_at(options, set.info.time, opened);
   if (!file) return go_without(file.error());
-  auto cache = open_cache("terrella", *file, set.info, source_key(set), options.cache_size_mb, say_without_cache);
-  if (!cache && cache.error().cannot_write) return go_without(cache.error());
-  if (!cache && options.cache.empty() && options.remote.time != set.info.time) {
-    // The server's default time was another one when the file was made.
-    SourceOptions dated = options;
-    dated.remote.time = set.info.time;
-    return cache_of(dated, set, set.info.time);
+  const auto open = [&](const fs::path& path) {
+    return open_cache("terrella", path, set.info, source_key(set), options.cache_size_mb, say_without_cache);
+  };
+  auto cache = open(*file);
+  if (!cache && !cache.error().cannot_write) {
+    // The set was opened at another time when the file was made.
+    const auto dated = dated_file(options, set.info.time);
+    if (dated && *dated != *file) cache = open(*dated);
   }
+  if (!cache && cache.error().cannot_write) return go_without(cache.error());
   if (!cache) return cache.error();
   return *std::move(cache);
 }

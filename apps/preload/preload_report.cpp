@@ -129,12 +129,22 @@ std::string to_json(const ReleaseReport& report) {
   return text_of({{"output", report.output}, {"released", report.released}});
 }
 
+std::string to_json(const std::vector<ReleaseReport>& instants) {
+  json all = json::array();
+  std::int64_t released = 0;
+  for (const ReleaseReport& report : instants) {
+    all.push_back({{"output", report.output}, {"released", report.released}});
+    released += report.released;
+  }
+  return text_of({{"instants", all}, {"released", released}});
+}
+
 std::string to_text(const PreloadForecast& forecast) {
   std::string text;
   for (const LevelCount& level : forecast.levels) {
     text += fmt::format("level {:2}: {} tiles\n", level.level, level.tiles);
   }
-  if (forecast.instants > 0) text += fmt::format("{} times, the tiles of all in these numbers\n", forecast.instants);
+  if (forecast.instants > 0) text += fmt::format("{} times; the counts are for all of them\n", forecast.instants);
   text += fmt::format("in all: {} tiles, {} of them there already\n", tiles_in(forecast), forecast.there);
   const auto bytes = bytes_of(forecast);
   const auto seconds = seconds_of(forecast);

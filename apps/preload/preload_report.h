@@ -14,7 +14,7 @@ namespace terrella {
 /// Result of a preload.
 struct PreloadReport {
   std::string output;
-  std::string time;  ///< instant of the tiles, of a preload of several; else empty
+  std::string time;  ///< Time of the tiles; empty if only one time is preloaded.
   PreloadResult result;
   std::vector<MissingReport::Group> missing;
   double seconds = 0.0;
@@ -31,11 +31,13 @@ struct ReleaseReport {
   std::int64_t released = 0;
 };
 [[nodiscard]] std::string to_json(const ReleaseReport& report);
+/// One JSON object for several instants: their reports, and the sum of `released`.
+[[nodiscard]] std::string to_json(const std::vector<ReleaseReport>& instants);
 
 /// Estimate of a preload.
 struct PreloadForecast {
   std::vector<LevelCount> levels;
-  std::size_t instants = 0;  ///< number of times, of a preload of several; else 0
+  std::size_t instants = 0;  ///< Number of times; 0 if only one time is preloaded.
   std::int64_t there = 0;    ///< fresh tiles already in the cache
   SizeSample sample;
   double rate = 0.0;  ///< requests per second; 0: no limit

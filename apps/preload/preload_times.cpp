@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <span>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "apps/open_scene/open_cache.h"
@@ -16,12 +20,22 @@
 namespace terrella {
 namespace {
 
+/// The time that a text names, now for "current", "now" and "present".
+std::optional<NamedTime> read_end(std::string_view text, UtcTime now) {
+  std::string word(text);
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (word == "current" || word == "now" || word == "present") {
+    return NamedTime{.from = now, .before = now + std::chrono::milliseconds(1)};
+  }
+  return read_named_time(text);
+}
+
 /// The ends of a value A/B without a period.
-std::optional<std::pair<NamedTime, NamedTime>> read_span(const std::string& value) {
+std::optional<std::pair<NamedTime, NamedTime>> read_span(const std::string& value, UtcTime now) {
   const std::size_t slash = value.find('/');
   if (slash == std::string::npos || value.find('/', slash + 1) != std::string::npos) return std::nullopt;
   const auto first = read_named_time(std::string_view(value).substr(0, slash));
-  const auto last = read_named_time(std::string_view(value).substr(slash + 1));
+  const auto last = read_end(std::string_view(value).substr(slash + 1), now);
   if (!first || !last) return std::nullopt;
   return std::pair(*first, *last);
 }
@@ -39,15 +53,18 @@ class StepList {
     }
     return Done{};
   }
-  Status add_series(const TimeSeries& series) {
-    for (std::int64_t i = 0; i < series.count; ++i) {
-      const UtcTime time = i == 0 ? series.first : after_periods(series.first, series.period, i);
-      const auto step = steps_.at_or_before(time);
+  Status add_instants(const TimeSteps& instants) {
+    for (std::optional<UtcTime> time = instants.first(); time;) {
+      const auto step = steps_.at_or_before(*time);
       if (!step) {
         return Error{fmt::format("--times: the source has nothing at {}; its first time is {}",
-                                 time_text(time, TimePrecision::second, true), steps_.text(steps_.first()))};
+                                 time_text(*time, TimePrecision::second, true), steps_.text(steps_.first()))};
       }
       if (Status added = add(*step); !added) return added;
+      // Instants before the next step have the same one.
+      const auto next = steps_.after(*time);
+      if (!next) break;
+      time = instants.at_or_before(*next) == next ? next : instants.after(*next);
     }
     return Done{};
   }
@@ -65,19 +82,16 @@ class StepList {
 };
 
 Status add_value(const std::string& value, StepList& list) {
-  if (const auto span = read_span(value)) {
+  const UtcTime now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  if (const auto span = read_span(value, now)) {
     if (span->second.from < span->first.from) {
       return Error{fmt::format("--times: {} ends before it begins", in_quotes(value))};
     }
     return list.add_span(span->first, span->second);
   }
-  const UtcTime now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto read = TimeSteps::parse(std::span(&value, 1), now);
   if (!read) return Error{"--times: " + read.error().message};
-  for (const TimeSeries& series : read->series()) {
-    if (Status added = list.add_series(series); !added) return added;
-  }
-  return Done{};
+  return list.add_instants(*read);
 }
 
 }  // namespace
@@ -102,9 +116,11 @@ Result<PreloadSource> source_at(const PreloadSource& source, UtcTime instant, co
 PreloadCommand command_at(const PreloadCommand& command, const std::string& time) {
   PreloadCommand one = command;
   const auto beside = [&time](const std::string& file) {
-    return file.empty() ? file : file_of_time(file, time).string();
+    std::error_code failed;
+    const bool other = std::filesystem::exists(file, failed) && !std::filesystem::is_regular_file(file, failed);
+    return file.empty() || other ? file : file_of_time(file, time).string();
   };
-  one.output = beside(command.output);
+  one.output = file_of_time(command.output, time).string();
   one.missing_file = beside(command.missing_file);
   one.stored_file = beside(command.stored_file);
   return one;

@@ -15,7 +15,8 @@ namespace terrella {
 inline constexpr std::size_t kMostPreloadTimes = 10000;
 
 /// Lists the steps that values of --times name, earliest first, each once: an instant A is the last step at or before
-/// it; A/B/PERIOD are those of its instants; A/B are all steps from A to the end of B. The error names the value, and
+/// it; A/B/PERIOD are those of its instants; A/B are all steps from A to the end of B, which may be
+/// "now". The error names the value, and
 /// the first step if a value is before it. thread: any
 [[nodiscard]] Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& values,
                                                             const TimeSteps& steps);
@@ -23,7 +24,8 @@ inline constexpr std::size_t kMostPreloadTimes = 10000;
 /// The source at one of its instants. thread: any
 [[nodiscard]] Result<PreloadSource> source_at(const PreloadSource& source, UtcTime instant, const HttpOptions& http);
 
-/// The command for one instant: cache and lists are files beside those that are named (file_of_time()). thread: any
+/// The command for one instant: cache and lists are files beside those that are named (file_of_time()). Lists that are
+/// no regular files, such as /dev/null, stay. thread: any
 [[nodiscard]] PreloadCommand command_at(const PreloadCommand& command, const std::string& time);
 
 /// Adds the counts of another instant to a forecast; sample and rate stay those of the first. thread: any

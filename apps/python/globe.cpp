@@ -375,6 +375,36 @@ std::vector<std::uint64_t> numbers_of(const std::vector<LayerId>& ids) {
 
 using GlobeClass = py::class_<PythonGlobe>;
 
+void add_time_methods(GlobeClass& globe) {
+  globe
+      .def(
+          "set_layer_time",
+          [](PythonGlobe& self, std::uint64_t layer, const std::string& time) {
+            value_or_raise(self.with_globe([&](Globe& g) { return go_to_time(g, LayerId{layer}, time); }));
+          },
+          py::arg("layer"), py::arg("time"),
+          "set_layer_time(self, layer, time)\n--\n\n"
+          "Show a layer of imagery at a time in UTC, such as '2012-05-09' or '2012-05-09T12:00Z': at its last time at "
+          "or "
+          "before that. The next view has it.")
+      .def(
+          "layer_time",
+          [](PythonGlobe& self, std::uint64_t layer) {
+            return value_or_raise(self.with_globe([&](Globe& g) { return shown_time(g, LayerId{layer}); }));
+          },
+          py::arg("layer"),
+          "layer_time(self, layer)\n--\n\n"
+          "The time that a layer of imagery shows, as its service writes it; None if it has no time.")
+      .def(
+          "layer_times",
+          [](PythonGlobe& self, std::uint64_t layer) {
+            return value_or_raise(self.with_globe([&](Globe& g) { return listed_times(g, LayerId{layer}); }));
+          },
+          py::arg("layer"),
+          "layer_times(self, layer)\n--\n\n"
+          "All times of a layer of imagery, earliest first; empty if it has none.");
+}
+
 void add_layer_methods(GlobeClass& globe) {
   globe
       .def("add_imagery", &PythonGlobe::add_imagery, py::arg("tileset"), py::arg("opacity") = 1.0,
@@ -414,32 +444,6 @@ void add_layer_methods(GlobeClass& globe) {
            "set_swipe(self, line, before=None, behind=None)\n--\n\n"
            "Compare two layers of imagery at a line, a fraction of the picture's width: one shows to its left, the "
            "other to its right. Line None: all layers show everywhere.")
-      .def(
-          "set_layer_time",
-          [](PythonGlobe& self, std::uint64_t layer, const std::string& time) {
-            value_or_raise(self.with_globe([&](Globe& g) { return go_to_time(g, LayerId{layer}, time); }));
-          },
-          py::arg("layer"), py::arg("time"),
-          "set_layer_time(self, layer, time)\n--\n\n"
-          "Show a layer of imagery at a time in UTC, such as '2012-05-09' or '2012-05-09T12:00Z': at its last time at "
-          "or "
-          "before that. The next view has it.")
-      .def(
-          "layer_time",
-          [](PythonGlobe& self, std::uint64_t layer) {
-            return value_or_raise(self.with_globe([&](Globe& g) { return shown_time(g, LayerId{layer}); }));
-          },
-          py::arg("layer"),
-          "layer_time(self, layer)\n--\n\n"
-          "The time that a layer of imagery shows, as its service writes it; None if it has no time.")
-      .def(
-          "layer_times",
-          [](PythonGlobe& self, std::uint64_t layer) {
-            return value_or_raise(self.with_globe([&](Globe& g) { return listed_times(g, LayerId{layer}); }));
-          },
-          py::arg("layer"),
-          "layer_times(self, layer)\n--\n\n"
-          "All times of a layer of imagery, earliest first; empty if it has none.")
       .def(
           "remove",
           [](PythonGlobe& self, std::uint64_t layer) {
@@ -528,6 +532,7 @@ void add_globe(py::module_& module) {
           "size", [](const PythonGlobe& self) { return std::pair(self.size().width_px, self.size().height_px); },
           "Width and height of the picture in pixels.");
   add_layer_methods(globe);
+  add_time_methods(globe);
   add_questions(globe);
 }
 

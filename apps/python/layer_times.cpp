@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 
 namespace terrella {
@@ -35,10 +37,17 @@ Result<std::vector<std::string>> listed_times(const Globe& globe, LayerId layer)
     return Error{
         fmt::format("{} has more than {} times: {}", (*source)->info().name, kMostListedTimes, steps->summary())};
   }
-  times.reserve(static_cast<std::size_t>(steps->count()));
-  for (std::optional<UtcTime> step = steps->first(); step; step = steps->after(*step)) {
-    times.push_back(steps->text(*step));
+  std::vector<UtcTime> instants;
+  instants.reserve(static_cast<std::size_t>(steps->count()));
+  for (const TimeSeries& series : steps->series()) {
+    for (std::int64_t i = 0; i < series.count; ++i) {
+      instants.push_back(i == 0 ? series.first : after_periods(series.first, series.period, i));
+    }
   }
+  std::ranges::sort(instants);
+  const auto end = std::unique(instants.begin(), instants.end());
+  times.reserve(instants.size());
+  std::transform(instants.begin(), end, std::back_inserter(times), [&](UtcTime step) { return steps->text(step); });
   return times;
 }
 

@@ -40,6 +40,26 @@ TimeSeries one_instant(const NamedTime& time) {
   return {.first = time.from, .last = time.from, .precision = time.precision, .has_z = time.has_z};
 }
 
+/// The coarsest precision that tells the steps of a period apart.
+TimePrecision precision_of(const TimePeriod& period) {
+  using namespace std::chrono;
+  if (period.length % minutes(1) != seconds(0)) {
+    return period.length % seconds(1) == seconds(0) ? TimePrecision::second : TimePrecision::millisecond;
+  }
+  if (period.length % days(1) != seconds(0)) return TimePrecision::minute;
+  if (period.length != seconds(0)) return TimePrecision::day;
+  return period.months % 12 == 0 ? TimePrecision::year : TimePrecision::month;
+}
+
+/// Makes the names of the steps of a series differ, where START is coarser than the period: 2026-06-01 and PT6H.
+void refine_precision(TimeSeries& series) {
+  const TimePrecision fine = precision_of(series.period);
+  if (fine <= series.precision) return;
+  // A time of day has its zone; a date in front of it was written without one.
+  if (fine >= TimePrecision::minute && series.precision < TimePrecision::minute) series.has_z = true;
+  series.precision = fine;
+}
+
 /// Reads one value and appends its series.
 Status append(const std::string& value, UtcTime now, std::vector<TimeSeries>& all) {
   const std::string_view text = value;
@@ -72,6 +92,7 @@ Status append(const std::string& value, UtcTime now, std::vector<TimeSeries>& al
   series.period = *period;
   series.count = step_at(first->from, *period, last->from) + 1;
   series.last = step_of(series, series.count - 1);
+  refine_precision(series);
   all.back() = series;
   return Done{};
 }
@@ -116,15 +137,16 @@ std::optional<UtcTime> TimeSteps::after(UtcTime time) const {
 }
 
 std::string TimeSteps::text(UtcTime step) const {
-  TimePrecision precision = TimePrecision::second;
-  bool has_z = true;
-  for (const TimeSeries& one : series_) {
-    if (one.first > step) break;
-    precision = one.precision;
-    has_z = one.has_z;
-    if (step <= one.last) break;
+  // From the last series that has begun: a single instant is found at once.
+  const auto begun = std::ranges::upper_bound(series_, step, {}, &TimeSeries::first);
+  const TimeSeries* named = nullptr;
+  for (auto one = begun; one != series_.begin();) {
+    --one;
+    if (step_of(*one, last_step(*one, step)) == step) return time_text(step, one->precision, one->has_z);
+    if (named == nullptr || (step > named->last && step <= one->last)) named = &*one;
   }
-  return time_text(step, precision, has_z);
+  if (named == nullptr) return time_text(step, TimePrecision::second, true);
+  return time_text(step, named->precision, named->has_z);
 }
 
 std::string TimeSteps::summary() const {

@@ -50,7 +50,7 @@ Status check_numbers(const NumberInfo& info) {
 Result<std::unique_ptr<TileSource>> TileSource::at_time(UtcTime time) {
   static_cast<void>(time);
   const std::string& name = info().name;
-  return Error{(name.empty() ? "the tiles" : name) + ": no times are known of it, so it is the same at all times"};
+  return Error{(name.empty() ? "the tiles" : name) + ": has no list of times, so it is the same at all times"};
 }
 
 Result<double, TileFailure> TileSource::value_at(const Geodetic& place, const Ellipsoid& figure) {

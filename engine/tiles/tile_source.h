@@ -90,7 +90,7 @@ struct TileSetInfo {
   std::optional<CrsSquare> square = {};  ///< square of a `projected` grid: this set's, or that of `made_of`
   std::string time = {};                 ///< instant of the tiles, as their service writes it; empty: none is known
   std::string times = {};                ///< summary of the instants that the service has; empty: none is known
-  std::optional<UtcTime> instant = {};   ///< `time`; none: not known
+  std::optional<UtcTime> instant = {};   ///< Instant that `time` names; none if unknown.
   /// The instants for which TileSource::at_time() has a source, never empty; null: none is known.
   std::shared_ptr<const TimeSteps> steps = {};
   std::vector<std::string> remarks = {};  ///< notes for the user: what was left out when the set was opened

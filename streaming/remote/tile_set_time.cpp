@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 12> kMonths = {"January",   "February", "
                                                       "September", "October",  "November", "December"};
 
 /// Words of servers for their newest time.
-constexpr std::array<std::string_view, 5> kNewest = {"current", "default", "latest", "now", "present"};
+constexpr std::array<std::string_view, 4> kNewest = {"current", "latest", "now", "present"};
 
 /// The fields of a time in UTC that the codes of a format write.
 struct TimeFields {
@@ -92,10 +92,14 @@ bool has_time(std::string_view url) {
   return url.find("{time}") != std::string_view::npos || url.find("{time:") != std::string_view::npos;
 }
 
-/// The instant that a user's time means; the last step for none, and for "current" and the like.
-UtcTime wanted_instant(const TimeSteps& steps, const std::string& time) {
+bool means_newest(std::string_view time) { return std::ranges::find(kNewest, time) != kNewest.end(); }
+
+/// The instant that a time names, the last step for "current" and the like; none for "default", which a server may mean
+/// as it likes.
+std::optional<UtcTime> instant_named(const TimeSteps& steps, const std::string& time) {
+  if (means_newest(time)) return steps.last();
   const auto named = read_named_time(time);
-  return named ? named->from : steps.last();
+  return named ? std::optional(named->from) : std::nullopt;
 }
 
 }  // namespace
@@ -114,13 +118,13 @@ bool is_newest(const TimeSteps& steps, const std::string& time) {
 void set_steps(TimeSteps steps, TileSetInfo& info) {
   if (steps.empty()) return;
   info.times = steps.summary();
-  info.instant = wanted_instant(steps, info.time);
+  info.instant = instant_named(steps, info.time);
   info.steps = std::make_shared<const TimeSteps>(std::move(steps));
 }
 
 Result<RemoteTileSet> at_time(const RemoteTileSet& set, UtcTime time) {
   const auto& steps = set.info.steps;
-  if (!steps) return Error{fmt::format("{}: no times are known of it", set.info.name)};
+  if (!steps) return Error{fmt::format("{}: has no list of times", set.info.name)};
   const auto step = steps->at_or_before(time);
   if (!step) {
     return Error{fmt::format("{}: it has nothing at {}; its first time is {}", set.info.name,
@@ -178,11 +182,12 @@ Status choose_template_time(RemoteTileSet& set, const RemoteOptions& options, co
   const UtcTime now = floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   Result<TimeSteps> steps = TimeSteps::parse(options.times, now);
   if (!steps) return Error{fmt::format("{}: ‹times›: {}", where, steps.error().message)};
-  if (!options.time.empty() && !read_named_time(options.time) && std::ranges::count(kNewest, options.time) == 0) {
+  if (!options.time.empty() && !read_named_time(options.time) && !means_newest(options.time) &&
+      options.time != "default") {
     return Error{fmt::format("{}: ‹time› {} is no time in UTC of ISO 8601, such as 2026-06-21", where,
                              in_quotes(options.time.substr(0, 80)))};
   }
-  const UtcTime wanted = wanted_instant(*steps, options.time);
+  const UtcTime wanted = instant_named(*steps, options.time).value_or(steps->last());
   set_steps(*std::move(steps), set.info);
   Result<RemoteTileSet> chosen = at_time(set, wanted);
   if (!chosen) return Error{where + ": " + chosen.error().message};

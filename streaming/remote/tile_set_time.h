@@ -24,7 +24,7 @@ inline constexpr std::chrono::seconds kNewestMissingLife{3600};
 /// True within a day of the last instant, and for "current", "default" and the like.
 [[nodiscard]] bool is_newest(const TimeSteps& steps, const std::string& time);
 
-/// Tells a description its steps, and the instant that its `time` means: the last one for "current" and the like.
+/// Sets steps, times and instant of a description.
 void set_steps(TimeSteps steps, TileSetInfo& info);
 
 /// True for the names of placeholders of a time: "time" and "time:FORMAT".

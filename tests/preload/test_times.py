@@ -7,6 +7,7 @@ import sqlite3
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 import servers
 from preload_test import PreloadTest
@@ -60,6 +61,49 @@ class Times(PreloadTest):
         for date in DATES:
             self.assertEqual(len(self.tiles_of(date)), a_date, date)
 
+    def test_a_span_to_now_and_a_period_far_finer_than_the_steps(self):
+        for times in ("2026-06-01/now", "2026-06-01/PRESENT", "2026-06-01/2090-06-01/PT3S"):
+            self.assertEqual(self.forecast(times)["instants"], len(DATES), times)
+
+    def render(self, *words):
+        return self.run_program("render", self.template, "--max-level", LEVELS - 1, "--cache", self.cache, "-o", "a.png",
+                                "--size", "64x64", "--tile-size", "256", *words)
+
+    def test_a_named_cache_of_another_time_has_files_beside_it(self):
+        later, earlier = ("--layer-times", "2026-06-01/2026-06-05/P1D"), ("--layer-times", "2026-06-01/2026-06-04/P1D")
+        for words in (earlier, (*later, "--layer-time", "2026-06-02"), later):
+            for asked in (True, False):
+                before = len(self.server.requests())
+                done = self.render(*words)
+                self.assertEqual(done.returncode, DONE, done.stderr)
+                self.assertEqual(len(self.server.requests()) > before, asked, words)
+        self.assertTrue(all(file.exists() for file in (self.cache, self.cache_of("2026-06-02"), self.cache_of("2026-06-05"))))
+
+    def test_offline_with_files_of_times_alone(self):
+        self.preload(self.template, *self.words, "--times", "2026-06-02/2026-06-04")
+        before = len(self.server.requests())
+        for words in ((), ("--layer-time", "2026-06-03"), ("--layer-time", "2026-06-05")):
+            done = self.render(*self.words[:2], "--offline", *words)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+        done = self.render(*self.words[:2], "--offline", "--layer-time", "2026-06-01")
+        self.assertEqual(done.returncode, FAILED)
+        self.assertIn("the first time is 2026-06-02", done.stderr)
+        self.assertEqual(len(self.server.requests()), before)
+
+    def test_reports_of_a_failure_and_a_release(self):
+        times = ("--times", "2026-06-02/2026-06-04", "--missing", "/dev/null")
+        self.cache_of("2026-06-03").mkdir()
+        summary, _ = self.preload(self.template, *self.words, *times, code=FAILED)
+        self.assertEqual([one["time"] for one in summary["instants"]], ["2026-06-02"])
+        self.cache_of("2026-06-03").rmdir()
+        self.preload(self.template, *self.words, *times)
+        self.assertFalse(Path("/dev/null.2026-06-02").exists())
+        told, _ = self.preload(self.template, *self.words, "--times", "2026-06-01/2026-06-05", "--release")
+        self.assertEqual([one["output"] for one in told["instants"]], [str(self.cache_of(date)) for date in DATES[1:4]])
+        self.assertEqual(told["released"], 3 * (servers.tiles_in(LEVELS) - servers.tiles_in(1)), "level 0 stays")
+        self.assert_fails(FAILED, "preload", self.template, "-o", self.cache, *self.words, "--times", "2026-06-01",
+                          "--release", says=["no such file"])
+
     def test_a_viewer_takes_them_without_a_request(self):
         self.preload(self.template, *self.words, "--times", "2026-06-03/2026-06-05")
         before = len(self.server.requests())
@@ -109,7 +153,7 @@ class Times(PreloadTest):
                 self.assert_fails(code, "preload", self.template, "-o", self.cache, *self.words, "--times", times,
                                   says=["--times", says])
         self.assert_fails(FAILED, "preload", self.server.template, "-o", self.cache, "--levels", "0-1", "--times",
-                          "2026-06-01", says=["no times", "--times"])
+                          "2026-06-01", says=["no list of times", "--times"])
         self.assert_fails(FAILED, "preload", self.template, "-o", self.cache, "--levels", "0-1", says=["--layer-times"])
         self.assert_fails(WRONG_USAGE, "preload", self.template, "-o", self.cache, *self.words, "--times", "2026-06-01",
                           "--layer-time", "2026-06-01", says=["--times", "--layer-time"])

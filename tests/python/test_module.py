@@ -363,8 +363,14 @@ class Globes(ModuleTest):
                 globe.set_layer_time(layer, time)
         still = globe.add_imagery(NATURAL_EARTH)
         self.assertEqual((globe.layer_times(still), globe.layer_time(still)), ([], None))
-        with self.assertRaisesRegex(terrella.Error, "no times are known"):
+        with self.assertRaisesRegex(terrella.Error, "no list of times"):
             globe.set_layer_time(still, "2026-06-01")
+        words = {"layer_times": "2026-06-01/2026-06-03/P1D"}
+        terrella.preload(template, times="2026-06-02/2026-06-03", levels="0-0", output=self.folder / "a.gpkg", **words)
+        offline = terrella.Globe(template, max_level=0, size=SIZE, unlit=True, cache=self.folder / "a.gpkg", offline=True, **words)
+        self.assertEqual((offline.layer_times(layer), offline.layer_time(layer)), (["2026-06-02", "2026-06-03"], "2026-06-03"))
+        offline.set_layer_time(layer, "2026-06-02")
+        self.assertEqual(tuple(offline.render()[SIZE[1] // 2, SIZE[0] // 2]), colours["2026-06-02"])
 
     def test_layers_added_later_are_those_of_the_scene(self):
         plain, explained = (terrella.Globe(NATURAL_EARTH, camera=(0, -140, 8e6), size=(320, 240), legend=legend) for legend in (False, True))

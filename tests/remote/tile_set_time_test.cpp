@@ -67,7 +67,7 @@ TEST(TileSetTime, ATimeBeforeTheFirstIsRefusedByItsName) {
   EXPECT_NE(set.error().message.find("nothing at 1999-12-31T12:00:00Z"), std::string::npos) << set.error().message;
   EXPECT_NE(set.error().message.find("2000-02-24"), std::string::npos) << set.error().message;
   const auto still = at_time(*parse_wmts_capabilities(test::gibs_document(), {.layer = "Still"}, "caps"), UtcTime());
-  EXPECT_NE(still.error().message.find("no times"), std::string::npos);
+  EXPECT_NE(still.error().message.find("no list of times"), std::string::npos);
 }
 
 TEST(TileSetTime, ATemplateHasTheNewestStepOrTheOneAtATime) {
@@ -89,6 +89,19 @@ TEST(TileSetTime, ATemplateWritesATimeByItsFormat) {
   EXPECT_EQ(written("%d%b%Y"), "05Mar2026");
   EXPECT_EQ(written("%B_%%3A"), "March_%3A");
   EXPECT_EQ(written("%s"), "1772683567");
+}
+
+TEST(TileSetTime, TheServersDefaultIsNoKnownInstant) {
+  const auto instant_at = [](const std::string& time) {
+    TileSetInfo info;
+    info.time = time;
+    set_steps(*TimeSteps::parse(std::vector<std::string>{"2026-01-01/2026-01-09/P1D"}, UtcTime()), info);
+    return info.instant;
+  };
+  EXPECT_EQ(instant_at("current"), instant("2026-01-09"));
+  EXPECT_EQ(instant_at("2026-01-05"), instant("2026-01-05"));
+  EXPECT_EQ(instant_at("default"), std::nullopt);
+  EXPECT_EQ(tile_url(dated(kDays, days("default")), {1, 2, 0}), "https://h/2026-12-31/1/2/0.png") << "ours is";
 }
 
 TEST(TileSetTime, ATemplateIsRefusedByTheReason) {

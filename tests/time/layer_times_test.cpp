@@ -236,7 +236,7 @@ TEST_F(LayerTimes, AnswersSayWhatIsWrong) {
               HasSubstr("first time is 2026-06-01"));
   EXPECT_FALSE(globe_->layer_time(LayerId{99}));
   const LayerId still = *globe_->add_imagery(painted_tiles(TileGrid{}, [](const TileId&) { return Image{}; }));
-  EXPECT_THAT(globe_->set_layer_time(still, date(1)).error().message, HasSubstr("no times are known"));
+  EXPECT_THAT(globe_->set_layer_time(still, date(1)).error().message, HasSubstr("no list of times"));
   EXPECT_FALSE(globe_->layer_time(still)->shown);
 }
 

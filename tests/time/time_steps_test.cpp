@@ -109,6 +109,27 @@ TEST(TimeStepsOf, SeriesAndSingleInstantsInAnyOrder) {
             "2024-01-01T00:00:00Z to 2024-01-02T00:00:00Z: 145 instants, PT10M");
 }
 
+std::vector<std::string> names(const TimeSteps& some) {
+  std::vector<std::string> all;
+  for (auto step = some.at_or_before(some.first()); step; step = some.after(*step)) all.push_back(some.text(*step));
+  return all;
+}
+
+TEST(TimeStepsOf, EachInstantHasANameOfItsOwn) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(steps({"2026-06-01/2026-06-02/PT12H"})),
+            (Names{"2026-06-01T00:00Z", "2026-06-01T12:00Z", "2026-06-02T00:00Z"}));
+  EXPECT_EQ(names(steps({"2026-06-01/2026-06-01T00:00:01Z/PT1S"})),
+            (Names{"2026-06-01T00:00:00Z", "2026-06-01T00:00:01Z"}));
+  EXPECT_EQ(names(steps({"2026/2026-03/P1M"})), (Names{"2026-01", "2026-02", "2026-03"}));
+  EXPECT_EQ(names(steps({"2026-05/2026-06/P15D"})), (Names{"2026-05-01", "2026-05-16", "2026-05-31"}));
+  EXPECT_EQ(names(steps({"2024/2026/P1Y"})), (Names{"2024", "2025", "2026"})) << "no finer than needed";
+  const TimeSteps mixed = steps({"2000-01-01/2026-01-01/P1D", "2010-05-05T12:00Z"});
+  EXPECT_EQ(mixed.text(at("2010-05-05T12:00Z")), "2010-05-05T12:00Z");
+  EXPECT_EQ(mixed.text(at("2010-05-05")), "2010-05-05");
+  EXPECT_EQ(mixed.text(at("2010-05-06")), "2010-05-06") << "after the single one";
+}
+
 TEST(TimeStepsOf, ASeriesThatGoesOnEndsNow) {
   EXPECT_EQ(steps({"2026-06-01/current/P1D"}).count(), 21);
   EXPECT_EQ(steps({"2026-06-01/PRESENT/P1D"}).last(), at("2026-06-21"));
