@@ -64,7 +64,7 @@ class BlockWalk {
   TilePlaces places_;
   std::vector<Opened> way_;
   std::vector<TileBlock> ready_;
-  View seen_;  ///< that of the node just looked at
+  View seen_;  ///< view of the node just looked at
 };
 
 }  // namespace terrella
