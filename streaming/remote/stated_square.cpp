@@ -56,6 +56,7 @@ Result<WmtsGrid> grid_of_extent(const StatedSquare& said, const RemoteOptions& o
     return Error{
         "‹crs› of its tiles needs ‹bounds› of them, west, south, east and north in that system (extent in a "
         "description)"};
+  if (options.bounds) return Error{"bounds in degrees cannot stand beside the extent of its tiles, which bounds them"};
   const Result<std::string> text = stated_crs(said.crs);
   if (!text) return text.error();
   const Result<Crs> crs = Crs::open(*text);

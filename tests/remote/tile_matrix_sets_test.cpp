@@ -308,6 +308,8 @@ TEST(TileMatrixSets, DescriptionsThatCannotBeAreNamed) {
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "resolutions": [1, 2])", "descend"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "resolutions": [0])", "positive"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1e9, 1], "resolutions": [1e-3])", "root tiles"),
+        std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "bounds": [0, -90, 9, -80], "max_level": 2)",
+                  "bounds in degrees"),
         std::pair(R"("crs": "EPSG:1", "extent": [0, 0, 1, 1], "max_level": 2)", "not one that PROJ knows"),
         std::pair(R"("tile_matrix_set": {"tileMatrices": []})", "no tileMatrices"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "tile_matrix_set": {}, "max_level": 2)",
