@@ -14,6 +14,18 @@ namespace {
 constexpr double kSliverTiles = 1.0e-6;
 
 TileSpan meet(const TileSpan& a, const TileSpan& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+MapRect meet(const MapRect& a, const MapRect& b) {
+  return {.west_deg = std::max(a.west_deg, b.west_deg),
+          .south_deg = std::max(a.south_deg, b.south_deg),
+          .east_deg = std::min(a.east_deg, b.east_deg),
+          .north_deg = std::min(a.north_deg, b.north_deg)};
+}
+MapRect around(const MapRect& a, const MapRect& b) {
+  return {.west_deg = std::min(a.west_deg, b.west_deg),
+          .south_deg = std::min(a.south_deg, b.south_deg),
+          .east_deg = std::max(a.east_deg, b.east_deg),
+          .north_deg = std::max(a.north_deg, b.north_deg)};
+}
 bool any(const TileSpan& span) { return span.first <= span.last; }
 TileSpan side(std::int64_t number, int shift) { return {number << shift, ((number + 1) << shift) - 1}; }
 
@@ -28,9 +40,8 @@ BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Reg
       projected_(projected),
       sliver_deg_(kSliverTiles * tile_span_deg(grid, grid.max_level)),
       places_(projected == nullptr ? tile_places(grid, level) : projected->places(level)) {
-  if (projected != nullptr) whole_ = region.whole();
   const auto longest = static_cast<std::uint64_t>(std::max(columns(grid, level), rows(grid, level)));
-  visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, region.whole());
+  visit({static_cast<int>(std::bit_width(longest - 1)), 0, 0}, {.sight = region.whole()});
 }
 
 std::optional<TileBlock> BlockWalk::next() {
@@ -43,14 +54,14 @@ std::optional<TileBlock> BlockWalk::next() {
     }
     const int child = top.child++;
     const Node node{top.node.shift - 1, 2 * top.node.x + child / 2, 2 * top.node.y + child % 2};
-    visit(node, top.sight);
+    visit(node, top.view);
   }
   const TileBlock block = ready_.back();
   ready_.pop_back();
   return block;
 }
 
-void BlockWalk::visit(const Node& node, const Region::Sight& outer) {
+void BlockWalk::visit(const Node& node, const View& outer) {
   if (!holds_places(node)) return;
   const Overlap overlap = overlap_of(node, outer);
   if (overlap == Overlap::outside) return;
@@ -61,20 +72,28 @@ void BlockWalk::visit(const Node& node, const Region::Sight& outer) {
   way_.push_back({node, 0, seen_});
 }
 
-Overlap BlockWalk::overlap_of(const Node& node, const Region::Sight& outer) {
+Overlap BlockWalk::overlap_of(const Node& node, const View& outer) {
   if (region_.empty()) return Overlap::inside;
-  return projected_ != nullptr ? projected_overlap_of(node) : region_.classify(rect(node), outer, seen_);
+  if (projected_ != nullptr) return projected_overlap_of(node, outer);
+  return region_.classify(rect(node), outer.sight, seen_.sight);
 }
 
-Overlap BlockWalk::projected_overlap_of(const Node& node) {
+Overlap BlockWalk::projected_overlap_of(const Node& node, const View& outer) {
   bool some = false, all = true;
-  for (const MapRect& part : projected_->rects(level_, side(node.x, node.shift), side(node.y, node.shift))) {
-    const Overlap overlap = region_.classify(part, whole_, seen_);
+  std::optional<MapRect> hull;
+  for (const MapRect& rect : projected_->rects(level_, side(node.x, node.shift), side(node.y, node.shift))) {
+    const MapRect part = meet(rect, outer.hull);
+    if (!(part.west_deg < part.east_deg && part.south_deg < part.north_deg)) continue;
+    const Overlap overlap = region_.classify(part, outer.sight, seen_.sight);
     some = some || overlap != Overlap::outside;
     all = all && overlap == Overlap::inside;
+    hull = hull ? around(*hull, part) : part;
   }
   if (!some) return Overlap::outside;
-  return all ? Overlap::inside : Overlap::cut;
+  if (all) return Overlap::inside;
+  seen_.hull = *hull;
+  static_cast<void>(region_.classify(seen_.hull, outer.sight, seen_.sight));  // for its sight
+  return Overlap::cut;
 }
 
 bool BlockWalk::holds_places(const Node& node) const {

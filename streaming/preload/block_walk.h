@@ -35,30 +35,36 @@ class BlockWalk {
     int shift;  ///< 2^shift tiles a side
     std::int64_t x, y;
   };
+  /// The region as a node sees it.
+  struct View {
+    Region::Sight sight;
+    /// For a `projected` grid: the rectangle around all rectangles of the node, whose sight it is. Those of its
+    /// children are cut to it.
+    MapRect hull{.west_deg = -180.0, .south_deg = -90.0, .east_deg = 180.0, .north_deg = 90.0};
+  };
   struct Opened {
     Node node;
     int child = 0;  ///< index of the next child to visit
-    Region::Sight sight;
+    View view;
   };
   /// Opens a node so that its children are visited next, or puts its blocks, if any, into `ready_`.
-  void visit(const Node& node, const Region::Sight& outer);
+  void visit(const Node& node, const View& outer);
   void add_blocks(const Node& node);
   [[nodiscard]] bool holds_places(const Node& node) const;
   [[nodiscard]] MapRect rect(const Node& node) const;
-  [[nodiscard]] Overlap overlap_of(const Node& node, const Region::Sight& outer);
-  [[nodiscard]] Overlap projected_overlap_of(const Node& node);
+  [[nodiscard]] Overlap overlap_of(const Node& node, const View& outer);
+  [[nodiscard]] Overlap projected_overlap_of(const Node& node, const View& outer);
 
   const TileGrid& grid_;
   const Ellipsoid& ellipsoid_;
   const Region& region_;
   int level_;
   const ProjectedPlaces* projected_;
-  Region::Sight whole_;  ///< for a `projected` grid: its rectangles do not enclose each other
   double sliver_deg_;
   TilePlaces places_;
   std::vector<Opened> way_;
   std::vector<TileBlock> ready_;
-  Region::Sight seen_;
+  View seen_;  ///< view of the node just looked at
 };
 
 }  // namespace terrella

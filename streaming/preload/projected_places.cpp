@@ -1,5 +1,7 @@
 #include "streaming/preload/projected_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,16 +99,23 @@ bool holds_point(const CrsArea& area, const CrsPoint& point) {
 
 }  // namespace
 
-ProjectedPlaces::ProjectedPlaces(TileSetInfo info, Crs crs)
-    : info_(std::move(info)), raster_(raster_info_of(info_)), crs_(std::move(crs)) {
-  auto poles = crs_.points({{0.0, 90.0}, {0.0, -90.0}});
-  if (poles) poles_ = *std::move(poles);
-}
+ProjectedPlaces::ProjectedPlaces(TileSetInfo info, Crs crs, std::vector<CrsPoint> poles)
+    : info_(std::move(info)), raster_(raster_info_of(info_)), crs_(std::move(crs)), poles_(std::move(poles)) {}
 
 Result<std::shared_ptr<const ProjectedPlaces>> ProjectedPlaces::open(const TileSetInfo& info) {
   Result<Crs> crs = Crs::open(info.square->crs);
   if (!crs) return crs.error();
-  return std::shared_ptr<const ProjectedPlaces>(new ProjectedPlaces(info, *std::move(crs)));
+  // After this success places() cannot fail either: both need only the same way between the systems.
+  Result<std::vector<CrsPoint>> poles = crs->points({{0.0, 90.0}, {0.0, -90.0}});
+  if (!poles) return poles.error();
+  const std::shared_ptr<const ProjectedPlaces> made(new ProjectedPlaces(info, *std::move(crs), *std::move(poles)));
+  // PROJ opens systems that it cannot compute, such as those of an unknown method, and then finds no place at all.
+  const TilePlaces all = made->places(info.grid.min_level);
+  const TileSpan columns{all.columns.front().first, all.columns.back().last};
+  if (made->rects(info.grid.min_level, columns, all.rows).empty()) {
+    return Error{fmt::format("PROJ finds no place of its tiles in the system {}", made->crs_.facts().name)};
+  }
+  return made;
 }
 
 const RasterLevel& ProjectedPlaces::level_of(int level) const {
@@ -135,12 +144,9 @@ std::vector<MapRect> ProjectedPlaces::rects(int level, const TileSpan& columns, 
                      .east = at.to_crs.x0 + static_cast<double>(columns.last + 1) * across,
                      .north = at.to_crs.y0 + static_cast<double>(rows.first) * down};
   const std::lock_guard lock(mutex_);
-  const auto places = crs_.places(lattice_over(area));
+  const std::vector<CrsPoint> places = *crs_.places(lattice_over(area));
   std::vector<MapRect> rects;
-  if (!places) return rects;
-  const auto has_pole = [&](std::size_t pole, const CrsArea& part) {
-    return pole < poles_.size() && holds_point(part, poles_[pole]);
-  };
+  const auto has_pole = [&](std::size_t pole, const CrsArea& part) { return holds_point(part, poles_[pole]); };
   const bool single = columns.first == columns.last && rows.first == rows.last;
   const int step = single ? 1 : kCells;
   for (int row = 0; row < kCells; row += step) {
@@ -149,7 +155,7 @@ std::vector<MapRect> ProjectedPlaces::rects(int level, const TileSpan& columns, 
                          .south = std::lerp(area.north, area.south, double(row + step) / kCells),
                          .east = std::lerp(area.west, area.east, double(column + step) / kCells),
                          .north = std::lerp(area.north, area.south, double(row) / kCells)};
-      add_rect(*places, {column, column + step - 1, row, row + step - 1, has_pole(0, part), has_pole(1, part)}, rects);
+      add_rect(places, {column, column + step - 1, row, row + step - 1, has_pole(0, part), has_pole(1, part)}, rects);
     }
   }
   return rects;

@@ -22,14 +22,14 @@ class ProjectedPlaces {
 
   /// The tiles that a level has.
   [[nodiscard]] TilePlaces places(int level) const;
-  /// Returns rectangles that together hold these tiles: one, or two at ±180°. Those of a single tile are many and
-  /// small, so that they hold little else. Empty if the tiles lie nowhere on the planet.
+  /// Returns rectangles that together hold these tiles. One or two for several tiles; up to 32 small ones for a
+  /// single tile. Empty if the tiles lie nowhere on the planet.
   [[nodiscard]] std::vector<MapRect> rects(int level, const TileSpan& columns, const TileSpan& rows) const;
   /// Span of a tile, degrees, about.
   [[nodiscard]] double span_deg(int level) const;
 
  private:
-  ProjectedPlaces(TileSetInfo info, Crs crs);
+  ProjectedPlaces(TileSetInfo info, Crs crs, std::vector<CrsPoint> poles);
   [[nodiscard]] const RasterLevel& level_of(int level) const;
 
   const TileSetInfo info_;

@@ -11,6 +11,8 @@
 #include "streaming/remote/wmts/matrix_set_json.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts_projected.h"
+#include "streaming/sets/crs_levels.h"
+#include "tiles/grid_ranges.h"
 #include "tiles/tile_range.h"
 
 namespace terrella {
@@ -29,16 +31,13 @@ Result<std::vector<double>> stated_pixels(const StatedSquare& said, const Remote
   return pixels;
 }
 
-std::int64_t tiles_over_extent(double extent, double span) {
-  constexpr double kSliver = 1e-6;  // tiles
-  constexpr double kMost = 0x1p40;
-  return static_cast<std::int64_t>(std::min(kMost, std::max(1.0, std::ceil(extent / span - kSliver))));
-}
-
 /// The levels as a matrix set with the easting first.
 WmtsMatrixSet matrices_of(const StatedSquare& said, const std::vector<double>& pixels, int tile_px, double unit_m) {
   WmtsMatrixSet set{.name = {}, .crs = said.crs, .matrices = {}, .box = {}};
   const CrsBounds& extent = *said.extent;
+  const auto tiles = [](double length, double span) {
+    return static_cast<std::int64_t>(std::min(kMaxTilesASide, tiles_over(length, span)));
+  };
   set.matrices.reserve(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const double span = pixels[i] * tile_px;
@@ -46,8 +45,8 @@ WmtsMatrixSet matrices_of(const StatedSquare& said, const std::vector<double>& p
                             .scale_denominator = pixels[i] * unit_m / kOgcPixel_m,
                             .corner = {extent.west, extent.north},
                             .tile_px = tile_px,
-                            .columns = tiles_over_extent(extent.east - extent.west, span),
-                            .rows = tiles_over_extent(extent.north - extent.south, span)});
+                            .columns = tiles(extent.east - extent.west, span),
+                            .rows = tiles(extent.north - extent.south, span)});
   }
   return set;
 }
@@ -57,6 +56,7 @@ Result<WmtsGrid> grid_of_extent(const StatedSquare& said, const RemoteOptions& o
     return Error{
         "‹crs› of its tiles needs ‹bounds› of them, west, south, east and north in that system (extent in a "
         "description)"};
+  if (options.bounds) return Error{"bounds in degrees cannot stand beside the extent of its tiles, which bounds them"};
   const Result<std::string> text = stated_crs(said.crs);
   if (!text) return text.error();
   const Result<Crs> crs = Crs::open(*text);

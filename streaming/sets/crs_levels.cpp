@@ -1,10 +1,16 @@
 #include "streaming/sets/crs_levels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace terrella {
+
+double tiles_over(double length, double span) {
+  constexpr double kSliver = 1e-6;  // tiles
+  return std::max(1.0, std::ceil(length / span - kSliver));
+}
 
 std::int64_t longer_side(const CrsLevel& level) { return std::max(level.columns, level.rows); }
 

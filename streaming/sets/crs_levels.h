@@ -11,6 +11,10 @@ namespace terrella {
 /// `projected` grid that has at least their numbers of tiles. Keeps the tile size. thread: any
 void place_own_levels(const std::string& crs, std::vector<CrsLevel> levels, TileSetInfo& info);
 
+/// Number of tiles of this span that cover a length, a whole number from 1 to infinity. A millionth of a tile is
+/// rounding. thread: any
+[[nodiscard]] double tiles_over(double length, double span);
+
 /// Number of tiles of a level along its longer side. thread: any
 [[nodiscard]] std::int64_t longer_side(const CrsLevel& level);
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxMatrices = 64;
 constexpr std::int64_t kMaxZoom = 60;
-constexpr double kMaxTilesASide = 0x1p40;
 /// Largest distance of a tile from its place in the grid, in texels. It is invisible and allows for rounded decimals.
 constexpr double kSlackTexels = 0.1;
 

@@ -235,6 +235,24 @@ GeoPackageTiles with_own_levels(GeoPackageTiles tiles) {
   return tiles;
 }
 
+/// Describes the set of a table that has no description of Terrella's.
+Status describe_table(SqliteReader& reader, const TileTable& table, TileSetInfo& info, const std::string& where) {
+  info.name = table.identifier;
+  info.attribution = table.description;
+  info.body = table.crs.body;
+  info.square = table.square;
+  info.grid.projection = table.crs.projection;
+  info.grid.latitude = table.crs.latitude;
+  const Extent data = table.data.value_or(table.set);
+  info.grid.bounds = table.square ? bounds_in_square(data) : bounds_of(in_latitude(data, table.crs.projection));
+  info.format = format_of(reader, table.name);
+  if (!table.is_coverage) return Done{};
+  const Result<NumberInfo> elevation = read_coverage(reader, table.name, where);
+  if (!elevation) return elevation.error();
+  info.numbers = *elevation;
+  return Done{};
+}
+
 }  // namespace
 
 Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string& where) {
@@ -264,20 +282,7 @@ Result<GeoPackageTiles> read_geopackage(SqliteReader& reader, const std::string&
     if (Status matched = match_grid(*matrices, table->set, tiles, where); !matched) return matched.error();
     return tiles;
   }
-  tiles.info.name = table->identifier;
-  tiles.info.attribution = table->description;
-  tiles.info.body = table->crs.body;
-  tiles.info.square = table->square;
-  tiles.info.grid.projection = table->crs.projection;
-  tiles.info.grid.latitude = table->crs.latitude;
-  const Extent data = table->data.value_or(table->set);
-  tiles.info.grid.bounds = table->square ? bounds_in_square(data) : bounds_of(in_latitude(data, table->crs.projection));
-  tiles.info.format = format_of(reader, table->name);
-  if (table->is_coverage) {
-    const Result<NumberInfo> elevation = read_coverage(reader, table->name, where);
-    if (!elevation) return elevation.error();
-    tiles.info.numbers = *elevation;
-  }
+  if (Status described = describe_table(reader, *table, tiles.info, where); !described) return described.error();
   if (Status placed = place_on_grid(*matrices, table->set, tiles, where); !placed) return placed.error();
   if (Status grid = check_grid(tiles.info.grid, where); !grid) return grid.error();
   if (Status filled = drop_empty_levels(reader, tiles, where); !filled) return filled.error();

@@ -30,10 +30,10 @@ constexpr const char* kTiffEnding = "tif";
 std::optional<CrsLevel> read_crs_level(const json& value) {
   const auto is_number = [](const json& part) { return part.is_number(); };
   if (!value.is_array() || value.size() != 5 || !std::ranges::all_of(value, is_number)) return std::nullopt;
-  constexpr double kMostTiles = 0x1p40, kFarthest = 1e12;
+  constexpr double kFarthest = 1e12;
   const double west = value[0], north = value[1], pixel = value[2], columns = value[3], rows = value[4];
   const bool good = std::abs(west) < kFarthest && std::abs(north) < kFarthest && pixel > 0.0 && pixel < kFarthest &&
-                    columns >= 1.0 && columns <= kMostTiles && rows >= 1.0 && rows <= kMostTiles;
+                    columns >= 1.0 && columns <= kMaxTilesASide && rows >= 1.0 && rows <= kMaxTilesASide;
   if (!good) return std::nullopt;
   return CrsLevel{.west = west,
                   .north = north,

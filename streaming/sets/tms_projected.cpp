@@ -17,23 +17,6 @@
 namespace terrella {
 namespace {
 
-/// A part of a tile under this is rounding.
-constexpr double kSliverTile = 1e-6;
-constexpr double kMostTilesOfTms = 0x1p40;
-
-/// A finite number that fills its attribute; NaN for others.
-double tms_number(const pugi::xml_node& node, const char* attribute) {
-  const char* text = node.attribute(attribute).value();
-  char* end = nullptr;
-  const double value = std::strtod(text, &end);
-  return end != text && *end == '\0' && std::isfinite(value) ? value : std::nan("");
-}
-
-/// Tiles from an origin to the end of the box.
-double tiles_to(double end, double origin, double span) {
-  return std::max(1.0, std::ceil((end - origin) / span - kSliverTile));
-}
-
 Result<std::vector<CrsLevel>> tms_levels(const pugi::xml_node& map, const std::vector<TmsUnits>& said, int tile_px) {
   const pugi::xml_node box = map.child("BoundingBox"), origin = map.child("Origin");
   const double west = tms_number(origin, "x"), south = tms_number(origin, "y");
@@ -46,8 +29,8 @@ Result<std::vector<CrsLevel>> tms_levels(const pugi::xml_node& map, const std::v
   levels.reserve(said.size());
   for (const TmsUnits& one : said) {
     const double span = one.unit_per_px * tile_px;
-    const double columns = tiles_to(east, west, span), rows = tiles_to(north, south, span);
-    if (!(span > 0.0 && columns <= kMostTilesOfTms && rows <= kMostTilesOfTms)) {
+    const double columns = tiles_over(east - west, span), rows = tiles_over(north - south, span);
+    if (!(span > 0.0 && columns <= kMaxTilesASide && rows <= kMaxTilesASide)) {
       return Error{fmt::format("<TileSet href=\"{}\"> has units-per-pixel of {}, which give too many tiles", one.folder,
                                one.unit_per_px)};
     }
@@ -61,6 +44,13 @@ Result<std::vector<CrsLevel>> tms_levels(const pugi::xml_node& map, const std::v
 }
 
 }  // namespace
+
+double tms_number(const pugi::xml_node& node, const char* attribute) {
+  const char* text = node.attribute(attribute).value();
+  char* end = nullptr;
+  const double value = std::strtod(text, &end);
+  return end != text && *end == '\0' && std::isfinite(value) ? value : std::nan("");
+}
 
 Status place_tms_levels(const pugi::xml_node& map, const std::vector<TmsUnits>& levels, TileSetInfo& info) {
   if (levels.size() > kMaxTileLevel + 1) {

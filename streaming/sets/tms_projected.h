@@ -15,6 +15,9 @@ struct TmsUnits {
   std::string folder;
 };
 
+/// A finite number that fills its attribute; NaN for others. thread: any
+[[nodiscard]] double tms_number(const pugi::xml_node& node, const char* attribute);
+
 /// Places the levels of a <TileMap>, coarsest first, whose <SRS> is any system that PROJ knows. Tiles begin at
 /// <Origin>, the south-west corner, and reach over the <BoundingBox>, so that each level has a north-west corner of its
 /// own. Both have the easting as x. Sets grid, square and body; the tile size is that of `info`. The error is the

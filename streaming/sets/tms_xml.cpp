@@ -30,14 +30,6 @@ bool near(double a, double b, double relative) {
   return std::abs(a - b) <= relative * std::max(std::abs(a), std::abs(b));
 }
 
-/// A number that fills its attribute; NaN if it is missing or invalid.
-double number(const pugi::xml_node& node, const char* attribute) {
-  const char* text = node.attribute(attribute).value();
-  char* end = nullptr;
-  const double value = std::strtod(text, &end);
-  return end != text && *end == '\0' ? value : std::nan("");
-}
-
 bool is_mercator(const pugi::xml_node& map) {
   const std::string srs = map.child_value("SRS");
   return srs.find("3857") != std::string::npos || srs.find("900913") != std::string::npos;
@@ -62,7 +54,8 @@ std::optional<std::string> refuse_reference_system(const pugi::xml_node& map) {
 GeoRect mercator_bounds(const pugi::xml_node& map) {
   constexpr double kMostDegrees = 360.0;
   const pugi::xml_node box = map.child("BoundingBox");
-  const std::array sides = {number(box, "minx"), number(box, "miny"), number(box, "maxx"), number(box, "maxy")};
+  const std::array sides = {tms_number(box, "minx"), tms_number(box, "miny"), tms_number(box, "maxx"),
+                            tms_number(box, "maxy")};
   if (!std::ranges::all_of(sides, [](double side) { return std::isfinite(side); })) return {};
   const bool degrees = std::ranges::all_of(sides, [](double side) { return std::abs(side) <= kMostDegrees; });
   const auto lon = [&](double side) {
@@ -79,7 +72,7 @@ GeoRect read_bounds(const pugi::xml_node& map) {
   if (is_mercator(map)) return mercator_bounds(map);
   const pugi::xml_node box = map.child("BoundingBox");
   const auto side = [&](const char* name, double limit, double otherwise) {
-    const double value = number(box, name);
+    const double value = tms_number(box, name);
     return Angle::degrees(std::isfinite(value) ? std::clamp(value, -limit, limit) : otherwise);
   };
   return {.west = side("minx", 180.0, -180.0),
@@ -98,7 +91,7 @@ Result<std::vector<TmsLevel>> read_levels(const pugi::xml_node& sets, double til
   std::vector<TmsLevel> levels;
   for (const pugi::xml_node set : sets.children("TileSet")) {
     if (levels.size() == kMaxTileSets) return Error{fmt::format("{}: more than {} <TileSet>s", where, kMaxTileSets)};
-    TmsLevel level{number(set, "units-per-pixel") * tile_units, set.attribute("href").value()};
+    TmsLevel level{tms_number(set, "units-per-pixel") * tile_units, set.attribute("href").value()};
     if (const auto slash = level.folder.find_last_of('/'); slash != std::string::npos) level.folder.erase(0, slash + 1);
     if (!(level.span_deg > 0.0 && std::isfinite(level.span_deg))) {
       return Error{fmt::format("{}: <TileSet href=\"{}\"> has no positive units-per-pixel", where, level.folder)};
@@ -193,8 +186,9 @@ Result<TmsDescription> parse_tms_xml(std::string_view text, const std::string& w
 
   TmsDescription tms;
   const pugi::xml_node tile = map.child("TileFormat");
-  const double width = number(tile, "width");
-  if (!(width >= kMinTilePx && width <= kMaxTilePx) || width != number(tile, "height") || width != std::floor(width)) {
+  const double width = tms_number(tile, "width");
+  if (!(width >= kMinTilePx && width <= kMaxTilePx) || width != tms_number(tile, "height") ||
+      width != std::floor(width)) {
     return Error{fmt::format("{}: <TileFormat> must have a width in [{}, {}] and a height that equals it", where,
                              kMinTilePx, kMaxTilePx)};
   }

@@ -118,9 +118,10 @@ Result<std::set<TileId>> stored_tiles_of(const TileSetInfo& stored, std::span<co
   if (stored.grid.projection != Projection::projected) return std::set<TileId>(drawn.begin(), drawn.end());
   const auto options = options_of_projected(stored);
   if (!options) return options.error();
-  const auto grid = drawn_grid_of(stored);
+  const RasterInfo raster = raster_info_of(stored);
+  const auto grid = warp_grid(raster, *options, "its grid");
   if (!grid) return grid.error();
-  auto planner = TilePlanner::open(raster_info_of(stored), options->figure, *grid, Overviews::made);
+  auto planner = TilePlanner::open(raster, options->figure, *grid, Overviews::made);
   if (!planner) return planner.error();
   return planned_tiles(stored.grid, **planner, drawn);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -29,11 +30,9 @@ GeoRect box_of(double west, double south, double east, double north) {
   return {Angle::degrees(west), Angle::degrees(south), Angle::degrees(east), Angle::degrees(north)};
 }
 
-std::set<TileId> planned(const TileSetInfo& info, const GeoRect& box) {
+std::set<TileId> planned(const TileSetInfo& info, Region region) {
   const auto places = ProjectedPlaces::open(info);
   EXPECT_TRUE(places);
-  Region region;
-  region.add_box(box);
   const auto plan = plan_region(info.grid, earth().ellipsoid, std::move(region), kFinest, kFinest, *places);
   std::set<TileId> tiles;
   const auto feed = plan->walk();
@@ -42,6 +41,45 @@ std::set<TileId> planned(const TileSetInfo& info, const GeoRect& box) {
   }
   EXPECT_EQ(plan->total(), static_cast<std::int64_t>(tiles.size()));
   return tiles;
+}
+
+std::set<TileId> planned(const TileSetInfo& info, const GeoRect& box) {
+  Region region;
+  region.add_box(box);
+  return planned(info, std::move(region));
+}
+
+/// An ellipse whose longer axis lies along the parallel.
+MapRing ellipse(const MapPoint& middle, double radius_deg, int points) {
+  MapRing ring;
+  ring.reserve(static_cast<std::size_t>(points));
+  for (int i = 0; i < points; ++i) {
+    const double angle = 2.0 * M_PI * i / points;
+    ring.push_back(
+        {middle.lon_deg + 2.0 * radius_deg * std::cos(angle), middle.lat_deg + radius_deg * std::sin(angle)});
+  }
+  return ring;
+}
+
+/// A box as polygons with many points.
+Region as_polygons(const GeoRect& box) {
+  Region region;
+  const auto add = [&](double west, double east) {
+    constexpr int kSide = 50;
+    const double south = box.south.deg(), north = box.north.deg();
+    MapRing ring;
+    ring.reserve(2 * kSide);
+    for (int i = 0; i < kSide; ++i) ring.push_back({std::lerp(west, east, i / (kSide - 1.0)), south});
+    for (int i = 0; i < kSide; ++i) ring.push_back({std::lerp(east, west, i / (kSide - 1.0)), north});
+    region.add_polygon({ring});
+  };
+  if (box.west <= box.east) {
+    add(box.west.deg(), box.east.deg());
+  } else {
+    add(box.west.deg(), 180.0);
+    add(-180.0, box.east.deg());
+  }
+  return region;
 }
 
 /// Tiles of the finest level that hold one of many points of a box.
@@ -79,11 +117,38 @@ TEST(ProjectedPlaces, APlanHasEachTileOfAnAreaAndFewBesides) {
     for (const TileId& id : needed) EXPECT_TRUE(tiles.contains(id)) << id.x << " " << id.y;
     // Tiles beside the edge of the area: at most about one more round it.
     EXPECT_LE(static_cast<double>(tiles.size()), 1.6 * static_cast<double>(needed.size()));
+    EXPECT_EQ(planned(polar(crs), as_polygons(box)), tiles);
   }
 }
 
 TEST(ProjectedPlaces, AnAreaOnTheOtherSideHasNoTiles) {
   EXPECT_TRUE(planned(polar("EPSG:3413"), box_of(-60, -40, -20, -20)).empty());
+}
+
+TEST(ProjectedPlaces, APolygonOfManyPointsTakesLittleLonger) {
+  TileSetInfo info = polar("EPSG:3413");
+  constexpr int kLevel = 8;
+  info.grid.max_level = kLevel;
+  const auto places = ProjectedPlaces::open(info);
+  ASSERT_TRUE(places);
+  const auto seconds_with = [&](int points) {
+    Region region;
+    region.add_polygon({ellipse({-40.0, 70.0}, 8.0, points)});
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_GT(plan_region(info.grid, earth().ellipsoid, std::move(region), kLevel, kLevel, *places)->total(), 500);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  EXPECT_LT(seconds_with(50'000), 6.0 * seconds_with(500));
+}
+
+TEST(ProjectedPlaces, ASystemWithoutPlacesIsRefused) {
+  const auto places = ProjectedPlaces::open(
+      polar(R"(PROJCRS["Own",BASEGEOGCRS["WGS 84",DATUM["World Geodetic System 1984",)"
+            R"(ELLIPSOID["WGS 84",6378137,298.257223563]]],CONVERSION["Own",METHOD["Nobody's"]],CS[Cartesian,2],)"
+            R"(AXIS["easting",east],AXIS["northing",north],LENGTHUNIT["metre",1]])"));
+  ASSERT_FALSE(places);
+  EXPECT_NE(places.error().message.find("no place of its tiles in the system Own"), std::string::npos)
+      << places.error().message;
 }
 
 }  // namespace

@@ -290,6 +290,15 @@ TEST(TileMatrixSets, ADescriptionSaysTheSystemOfATemplate) {
       << varying.error().message;
 }
 
+TEST(TileMatrixSets, TheAreaThatSaysWhichAxisIsFirstMayCrossTheDateLine) {
+  const auto islands = described(
+      R"("bounds": [166, -48, -177, -34], "tile_matrix_set": {"id": "Islands", "tileMatrices": [{"id": "a",)"
+      R"("scaleDenominator": 27901785.714, "pointOfOrigin": [1000000, 6300000], "tileWidth": 256, "tileHeight": 256,)"
+      R"("matrixWidth": 1, "matrixHeight": 1}], "crs": "http://www.opengis.net/def/crs/EPSG/0/2193"})");
+  ASSERT_TRUE(islands) << islands.error().message;
+  EXPECT_EQ(islands->info.square->west, 1000000.0);
+}
+
 TEST(TileMatrixSets, DescriptionsThatCannotBeAreNamed) {
   for (const auto& [fields, why] :
        {std::pair(R"("crs": "EPSG:3031", "max_level": 2)", "needs an \"extent\""),
@@ -299,6 +308,8 @@ TEST(TileMatrixSets, DescriptionsThatCannotBeAreNamed) {
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "resolutions": [1, 2])", "descend"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "resolutions": [0])", "positive"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1e9, 1], "resolutions": [1e-3])", "root tiles"),
+        std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "bounds": [0, -90, 9, -80], "max_level": 2)",
+                  "bounds in degrees"),
         std::pair(R"("crs": "EPSG:1", "extent": [0, 0, 1, 1], "max_level": 2)", "not one that PROJ knows"),
         std::pair(R"("tile_matrix_set": {"tileMatrices": []})", "no tileMatrices"),
         std::pair(R"("crs": "EPSG:3031", "extent": [0, 0, 1, 1], "tile_matrix_set": {}, "max_level": 2)",

@@ -75,7 +75,7 @@ std::optional<DegreeWindow> degrees_of(const GdalWmsDocument& said, const Crs& c
 /// Number of whole tiles; none if the number is off by more than a part of a pixel.
 std::optional<std::int64_t> whole_tiles_in(double extent_deg, double span_deg, int tile_px) {
   const double tiles = extent_deg / span_deg;
-  if (!(std::abs(tiles) < 0x1p40)) return std::nullopt;
+  if (!(std::abs(tiles) < kMaxTilesASide)) return std::nullopt;
   const double whole = std::round(tiles);
   return std::abs(tiles - whole) * tile_px <= kMostOff_px ? std::optional(std::llround(whole)) : std::nullopt;
 }

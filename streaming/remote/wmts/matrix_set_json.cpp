@@ -18,7 +18,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxSetBytes = 1UL << 20;
 constexpr std::size_t kMaxJsonMatrices = 64;
-constexpr double kMaxJsonTiles = 0x1p40;
 
 /// The first of two fields that exists: the names of the two versions.
 const json* field_of(const json& object, const char* name, const char* other) {
@@ -81,8 +80,8 @@ Result<WmtsMatrix> read_json_matrix(const json& from) {
   if (!width || *width < kMinTilePx || width != whole_in_json(from, "tileHeight", kMaxTilePx)) {
     return fault(fmt::format("tileWidth and tileHeight are not the same number in [{}, {}]", kMinTilePx, kMaxTilePx));
   }
-  const auto columns = whole_in_json(from, "matrixWidth", kMaxJsonTiles);
-  const auto rows = whole_in_json(from, "matrixHeight", kMaxJsonTiles);
+  const auto columns = whole_in_json(from, "matrixWidth", kMaxTilesASide);
+  const auto rows = whole_in_json(from, "matrixHeight", kMaxTilesASide);
   if (!columns || !rows) return fault("matrixWidth or matrixHeight is not a positive whole number");
   matrix.scale_denominator = *scale;
   matrix.corner = {(*corner)[0].get<double>(), (*corner)[1].get<double>()};

@@ -30,16 +30,16 @@ std::optional<bool> order_of_degrees(const WmtsMatrix& matrix, const CrsFacts& f
   return !facts.geographic || first == second ? std::nullopt : std::optional(second);
 }
 
-/// Places all over an area.
+/// Places all over an area, which may cross ±180°.
 std::vector<CrsPoint> lattice(const GeoRect& area) {
   constexpr int kSide = 11;
+  const double west = area.west.deg(), east = area.east.deg() + (area.east < area.west ? 360.0 : 0.0);
   std::vector<CrsPoint> places;
   places.reserve(std::size_t{kSide} * kSide);
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
       const double across = (column + 0.5) / kSide, up = (row + 0.5) / kSide;
-      places.push_back(
-          {std::lerp(area.west.deg(), area.east.deg(), across), std::lerp(area.south.deg(), area.north.deg(), up)});
+      places.push_back({std::lerp(west, east, across), std::lerp(area.south.deg(), area.north.deg(), up)});
     }
   }
   return places;

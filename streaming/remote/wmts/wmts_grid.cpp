@@ -105,7 +105,7 @@ double mercator_span_deg(const WmtsMatrix& matrix) {
 
 std::optional<std::int64_t> whole_tiles(double offset_deg, double span, int tile_px) {
   const double tiles = offset_deg / span;
-  if (!(std::abs(tiles) < 0x1p40)) return std::nullopt;
+  if (!(std::abs(tiles) < kMaxTilesASide)) return std::nullopt;
   const double whole = std::round(tiles);
   return std::abs(tiles - whole) * tile_px <= kSlackTexels ? std::optional(std::llround(whole)) : std::nullopt;
 }

@@ -21,7 +21,7 @@ std::optional<std::int64_t> to_whole(std::string_view text) {
 
 constexpr std::size_t kMaxMatrices = 64;
 constexpr std::size_t kMaxNameBytes = 256;
-constexpr std::int64_t kMaxTilesASide = std::int64_t{1} << 40;
+constexpr auto kMaxMatrixTiles = static_cast<std::int64_t>(kMaxTilesASide);
 
 bool in_range(const std::optional<std::int64_t>& value, std::int64_t low, std::int64_t high) {
   return value && *value >= low && *value <= high;
@@ -45,7 +45,7 @@ Result<WmtsMatrix> read_matrix(const pugi::xml_node& node) {
   }
   const auto columns = to_whole(text_of(node, "MatrixWidth"));
   const auto rows = to_whole(text_of(node, "MatrixHeight"));
-  if (!in_range(columns, 1, kMaxTilesASide) || !in_range(rows, 1, kMaxTilesASide)) {
+  if (!in_range(columns, 1, kMaxMatrixTiles) || !in_range(rows, 1, kMaxMatrixTiles)) {
     return fault("MatrixWidth or MatrixHeight is not a positive whole number");
   }
   matrix.scale_denominator = *scale;
@@ -98,8 +98,10 @@ std::vector<WmtsLimits> read_limits(const pugi::xml_node& link) {
     const auto last_row = to_integer(text_of(node, "MaxTileRow"));
     const auto first_column = to_integer(text_of(node, "MinTileCol"));
     const auto last_column = to_integer(text_of(node, "MaxTileCol"));
-    if (!in_range(first_row, 0, kMaxTilesASide) || !in_range(last_row, first_row.value_or(0), kMaxTilesASide)) continue;
-    if (!in_range(first_column, 0, kMaxTilesASide) || !in_range(last_column, first_column.value_or(0), kMaxTilesASide))
+    if (!in_range(first_row, 0, kMaxMatrixTiles) || !in_range(last_row, first_row.value_or(0), kMaxMatrixTiles))
+      continue;
+    if (!in_range(first_column, 0, kMaxMatrixTiles) ||
+        !in_range(last_column, first_column.value_or(0), kMaxMatrixTiles))
       continue;
     if (all.size() == kMaxMatrices) break;
     all.push_back({.matrix = std::string(text_of(node, "TileMatrix")),
