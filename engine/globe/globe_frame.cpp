@@ -298,6 +298,7 @@ bool GlobeView::Impl::has_settled_heights() const {
 bool GlobeView::Impl::settled() const {
   if (frame == 0 || !status || is_behind || !has_settled_heights() || stats.air_put_off) return false;
   if (std::ranges::any_of(globe->objects, &ObjectLayer::waits) || !ground.wants.empty()) return false;
+  if (std::ranges::any_of(globe->coming, [this](const auto& layer) { return globe->is_awaited(*layer); })) return false;
   return std::ranges::all_of(
       planned, [this](const LayerView* layer) { return layer->settled() || globe->is_late(layer->layer()); });
 }

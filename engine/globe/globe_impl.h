@@ -57,6 +57,10 @@ struct Globe::Impl {
   [[nodiscard]] Status load_ahead(const ImageLayer& shown, UtcTime time);
   /// The layer that takes the place of this one last; null: none, or one that only fills its cache.
   [[nodiscard]] ImageLayer* newest_coming(const ImageLayer& shown) const;
+  /// True if a layer that is not in place waits for tiles, and is wanted now or next.
+  [[nodiscard]] bool is_awaited(const ImageLayer& layer) const {
+    return !is_late(layer) && !(layer.turn().is_ahead && layer.is_ready());
+  }
   /// True if a layer that is not in place will not take its place, because a later one did.
   [[nodiscard]] bool is_late(const ImageLayer& layer) const;
   void drop_late(LayerId id);  ///< drops all coming layers but the latest three

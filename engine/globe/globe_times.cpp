@@ -27,7 +27,8 @@ ImageLayer* Globe::Impl::newest_coming(const ImageLayer& shown) const {
 
 bool Globe::Impl::is_late(const ImageLayer& layer) const {
   const ImageLayer* shown = image(layer.id());
-  return shown != nullptr && shown != &layer && layer.turn().number < shown->turn().number;
+  if (shown == nullptr || shown == &layer || layer.turn().is_ahead) return false;
+  return layer.turn().number < shown->turn().number;
 }
 
 void Globe::Impl::drop_late(LayerId id) {

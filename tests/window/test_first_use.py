@@ -175,6 +175,7 @@ class FirstUse(WindowTest):
         self.begin(self.start(size=None, bare=False))
         self.viewer.xdotool("windowsize", self.viewer.window, str(WIDTH), str(HEIGHT))
         wait_until("the size", lambda: self.viewer.geometry()[2:] == (WIDTH, HEIGHT))
+        wait_until("panels of this size", lambda: not self.viewer.layout.faults(WIDTH, HEIGHT))
         self.session()
         self.fade()
         self.save_a_picture()
