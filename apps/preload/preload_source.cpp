@@ -101,7 +101,8 @@ Result<PreloadSource> open_tiff(const Url& source, const RemoteOptions& remote, 
 
 PreloadSource remote_preload_source(RemoteTileSet set, const HttpOptions& http) {
   PreloadSource opened{.set = set, .cache_info = set.info, .key = source_key(set), .remote = true, .make_origin = {}};
-  opened.make_origin = [limits = within_limits(http, set), set = std::move(set)](ReplyQueue& answers) {
+  const auto limits = within_limits(http, set);
+  opened.make_origin = [limits, set = std::move(set)](ReplyQueue& answers) {
     return network_origin(set, limits, answers);
   };
   return opened;
