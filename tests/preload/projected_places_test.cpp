@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -47,18 +46,6 @@ std::set<TileId> planned(const TileSetInfo& info, const GeoRect& box) {
   Region region;
   region.add_box(box);
   return planned(info, std::move(region));
-}
-
-/// An ellipse whose longer axis lies along the parallel.
-MapRing ellipse(const MapPoint& middle, double radius_deg, int points) {
-  MapRing ring;
-  ring.reserve(static_cast<std::size_t>(points));
-  for (int i = 0; i < points; ++i) {
-    const double angle = 2.0 * M_PI * i / points;
-    ring.push_back(
-        {middle.lon_deg + 2.0 * radius_deg * std::cos(angle), middle.lat_deg + radius_deg * std::sin(angle)});
-  }
-  return ring;
 }
 
 /// A box as polygons with many points.
@@ -123,22 +110,6 @@ TEST(ProjectedPlaces, APlanHasEachTileOfAnAreaAndFewBesides) {
 
 TEST(ProjectedPlaces, AnAreaOnTheOtherSideHasNoTiles) {
   EXPECT_TRUE(planned(polar("EPSG:3413"), box_of(-60, -40, -20, -20)).empty());
-}
-
-TEST(ProjectedPlaces, APolygonOfManyPointsTakesLittleLonger) {
-  TileSetInfo info = polar("EPSG:3413");
-  constexpr int kLevel = 8;
-  info.grid.max_level = kLevel;
-  const auto places = ProjectedPlaces::open(info);
-  ASSERT_TRUE(places);
-  const auto seconds_with = [&](int points) {
-    Region region;
-    region.add_polygon({ellipse({-40.0, 70.0}, 8.0, points)});
-    const auto begin = std::chrono::steady_clock::now();
-    EXPECT_GT(plan_region(info.grid, earth().ellipsoid, std::move(region), kLevel, kLevel, *places)->total(), 500);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  EXPECT_LT(seconds_with(50'000), 6.0 * seconds_with(500));
 }
 
 TEST(ProjectedPlaces, ASystemWithoutPlacesIsRefused) {
