@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "apps/open_scene/open_cache.h"
+#include "apps/open_scene/passed_tiles.h"
 #include "base/time_steps.h"
 #include "streaming/sets/open_tile_set.h"
 
@@ -22,28 +22,15 @@ Result<std::unique_ptr<TileSource>> open_step(const fs::path& cache, const std::
                                               UtcTime time);
 
 /// The cache of one time, with the times of those beside it.
-class DatedCache : public TileSource {
+class DatedCache : public PassedTiles {
  public:
   DatedCache(std::unique_ptr<TileSource> tiles, TileSetInfo info, fs::path cache)
-      : tiles_(std::move(tiles)), info_(std::move(info)), cache_(std::move(cache)) {}
-  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
-  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
-  [[nodiscard]] Result<EncodedTile, TileFailure> read_or_stop(const TileId& id, const std::stop_token& stop) override {
-    return tiles_->read_or_stop(id, stop);
-  }
-  [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
-  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
-  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
-  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
-    return tiles_->value_at(place, figure);
-  }
+      : PassedTiles(std::move(tiles), std::move(info)), cache_(std::move(cache)) {}
   [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
-    return open_step(cache_, info_.steps, time);
+    return open_step(cache_, info().steps, time);
   }
 
  private:
-  std::unique_ptr<TileSource> tiles_;
-  TileSetInfo info_;
   fs::path cache_;
 };
 

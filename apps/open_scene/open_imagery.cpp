@@ -10,6 +10,7 @@
 #include "apps/open_scene/open_picture.h"
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/open_remote.h"
+#include "apps/open_scene/passed_tiles.h"
 #include "apps/process/console.h"
 #include "apps/process/data_dir.h"
 #include "apps/process/user_folder.h"
@@ -30,31 +31,17 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A tile set whose description is overridden by the command line.
-class DescribedSource : public TileSource {
+class DescribedSource : public PassedTiles {
  public:
-  DescribedSource(std::shared_ptr<TileSource> tiles, TileSetInfo info)
-      : tiles_(std::move(tiles)), info_(std::move(info)) {}
-  [[nodiscard]] const TileSetInfo& info() const override { return info_; }
-  [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return tiles_->read(id); }
-  [[nodiscard]] RemoteTiles* remote() override { return tiles_->remote(); }
-  [[nodiscard]] std::uint64_t edition() const override { return tiles_->edition(); }
-  [[nodiscard]] std::uint64_t edition_of(const TileId& id) const override { return tiles_->edition_of(id); }
-  [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return tiles_->count_tiles(level); }
-  [[nodiscard]] Result<double, TileFailure> value_at(const Geodetic& place, const Ellipsoid& figure) override {
-    return tiles_->value_at(place, figure);
-  }
+  using PassedTiles::PassedTiles;
   [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
-    auto other = tiles_->at_time(time);
+    auto other = tiles().at_time(time);
     if (!other) return other.error();
-    TileSetInfo info = info_;
-    info.time = (*other)->info().time;
-    info.instant = (*other)->info().instant;
-    return std::unique_ptr<TileSource>(std::make_unique<DescribedSource>(*std::move(other), std::move(info)));
+    TileSetInfo changed = info();
+    changed.time = (*other)->info().time;
+    changed.instant = (*other)->info().instant;
+    return std::unique_ptr<TileSource>(std::make_unique<DescribedSource>(*std::move(other), std::move(changed)));
   }
-
- private:
-  std::shared_ptr<TileSource> tiles_;
-  TileSetInfo info_;
 };
 
 Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, const CutProgress& told) {

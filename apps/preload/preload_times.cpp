@@ -40,15 +40,17 @@ std::optional<std::pair<NamedTime, NamedTime>> read_span(const std::string& valu
   return std::pair(*first, *last);
 }
 
+std::optional<UtcTime> at_or_after(const TimeSteps& steps, UtcTime time) {
+  return steps.after(time - UtcTime::duration(1));
+}
+
 /// Collects steps, up to the limit.
 class StepList {
  public:
   explicit StepList(const TimeSteps& steps) : steps_(steps) {}
 
   Status add_span(const NamedTime& first, const NamedTime& last) {
-    auto step = steps_.at_or_before(first.from);
-    if (step != first.from) step = steps_.after(first.from);
-    for (; step && *step < last.before; step = steps_.after(*step)) {
+    for (auto step = at_or_after(steps_, first.from); step && *step < last.before; step = steps_.after(*step)) {
       if (Status added = add(*step); !added) return added;
     }
     return Done{};
@@ -64,7 +66,7 @@ class StepList {
       // Instants before the next step have the same one.
       const auto next = steps_.after(*time);
       if (!next) break;
-      time = instants.at_or_before(*next) == next ? next : instants.after(*next);
+      time = at_or_after(instants, *next);
     }
     return Done{};
   }

@@ -15,9 +15,8 @@ namespace terrella {
 inline constexpr std::size_t kMostPreloadTimes = 10000;
 
 /// Lists the steps that values of --times name, earliest first, each once: an instant A is the last step at or before
-/// it; A/B/PERIOD are those of its instants; A/B are all steps from A to the end of B, which may be
-/// "now". The error names the value, and
-/// the first step if a value is before it. thread: any
+/// it; A/B/PERIOD are those of its instants; A/B are all steps from A to the end of B, which may be "now". The error
+/// names the value, and the first step if a value is before it. thread: any
 [[nodiscard]] Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& values,
                                                             const TimeSteps& steps);
 

@@ -385,8 +385,7 @@ void add_time_methods(GlobeClass& globe) {
           py::arg("layer"), py::arg("time"),
           "set_layer_time(self, layer, time)\n--\n\n"
           "Show a layer of imagery at a time in UTC, such as '2012-05-09' or '2012-05-09T12:00Z': at its last time at "
-          "or "
-          "before that. The next view has it.")
+          "or before that. The next view has it.")
       .def(
           "layer_time",
           [](PythonGlobe& self, std::uint64_t layer) {

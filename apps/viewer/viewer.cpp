@@ -62,7 +62,7 @@ std::optional<std::filesystem::path> Viewer::run() {
     const bool panels = front_panel() != nullptr || input_.is_over_panel();
     if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
     modes_.play().advance(Input::now());
-    timeline_.advance(Input::now());
+    timeline_.advance();
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());

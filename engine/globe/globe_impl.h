@@ -49,8 +49,8 @@ struct Globe::Impl {
                                                                std::shared_ptr<TileSource> source,
                                                                const ImageLook& look);
   void forget_views_of(const ImageLayer& image);  ///< in the stacks of all views
-  void drop_coming(LayerId id);                   ///< the layers that would take the place of this one
-  void drop_ahead(LayerId id);                    ///< the layer of a time that nobody has asked to see yet
+  enum class Coming { all, ahead };               ///< ahead: of a time that nobody has asked to see yet
+  void drop_coming(LayerId id, Coming which);     ///< the layers that would take the place of this one
   void put_in_place();                            ///< puts layers in place whose tiles have come
   // Instants of layers (globe_times.cpp).
   [[nodiscard]] Status go_to_time(ImageLayer& shown, UtcTime time);
@@ -65,6 +65,8 @@ struct Globe::Impl {
   [[nodiscard]] bool is_late(const ImageLayer& layer) const;
   void drop_late(LayerId id);  ///< drops all coming layers but the latest three
   [[nodiscard]] Status ask_for_time(const ImageLayer& shown, UtcTime time, const SourceTurn& turn);
+  /// The layer of a step that is on its way to the place of this one; null: none.
+  [[nodiscard]] ImageLayer* coming_at(const ImageLayer& shown, UtcTime step) const;
   /// Gives the turn to the layer of a step that is on its way already; else asks for the step.
   [[nodiscard]] Status ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn);
   void note_missing(const ImageLayer& lacking, UtcTime instant);

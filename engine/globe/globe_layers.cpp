@@ -90,20 +90,14 @@ void Globe::Impl::forget_views_of(const ImageLayer& image) {
   }
 }
 
-void Globe::Impl::drop_coming(LayerId id) {
-  const auto is_for = [id](const auto& layer) { return layer->id() == id; };
+void Globe::Impl::drop_coming(LayerId id, Coming which) {
+  const auto is_one = [&](const auto& layer) {
+    return layer->id() == id && (which == Coming::all || layer->turn().is_ahead);
+  };
   for (const auto& layer : coming) {
-    if (is_for(layer)) forget_views_of(*layer);
+    if (is_one(layer)) forget_views_of(*layer);
   }
-  if (std::erase_if(coming, is_for) > 0) share_gpu();
-}
-
-void Globe::Impl::drop_ahead(LayerId id) {
-  const auto is_it = [id](const auto& layer) { return layer->id() == id && layer->turn().is_ahead; };
-  for (const auto& layer : coming) {
-    if (is_it(layer)) forget_views_of(*layer);
-  }
-  if (std::erase_if(coming, is_it) > 0) share_gpu();
+  if (std::erase_if(coming, is_one) > 0) share_gpu();
 }
 
 // A layer that is not drawn needs no tiles to be in place.
@@ -159,7 +153,7 @@ Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
   auto layer = impl_->make_image("Globe::set_source", imagery, std::move(source), shown->look());
   if (!layer) return layer.error();
   (*layer)->set_turn({.number = ++impl_->turns});
-  impl_->drop_coming(imagery);
+  impl_->drop_coming(imagery, Impl::Coming::all);
   impl_->coming.push_back(*std::move(layer));
   impl_->put_in_place();
   impl_->changed = true;
@@ -221,7 +215,7 @@ Status Globe::remove(LayerId layer) {
   }
   ImageLayer* image = impl_->image(layer);
   if (image == nullptr) return no_layer("Globe::remove", "layer", layer);
-  impl_->drop_coming(layer);
+  impl_->drop_coming(layer, Impl::Coming::all);
   impl_->forget_views_of(*image);
   std::erase_if(impl_->images, [image](const auto& other) { return other.get() == image; });
   impl_->share_gpu();

@@ -59,12 +59,17 @@ Status Globe::Impl::ask_for_time(const ImageLayer& shown, UtcTime time, const So
   return Done{};
 }
 
-Status Globe::Impl::ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn) {
+ImageLayer* Globe::Impl::coming_at(const ImageLayer& shown, UtcTime step) const {
   const auto known = std::ranges::find_if(coming, [&](const auto& layer) {
     return layer->id() == shown.id() && instant_of(*layer) == std::optional(step);
   });
-  if (known == coming.end()) return ask_for_time(shown, step, turn);
-  (*known)->set_turn(turn);
+  return known == coming.end() ? nullptr : known->get();
+}
+
+Status Globe::Impl::ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn) {
+  ImageLayer* known = coming_at(shown, step);
+  if (known == nullptr) return ask_for_time(shown, step, turn);
+  known->set_turn(turn);
   return Done{};
 }
 
@@ -90,12 +95,8 @@ Status Globe::Impl::go_to_time(ImageLayer& shown, UtcTime time) {
 Status Globe::Impl::load_ahead(const ImageLayer& shown, UtcTime time) {
   const TileSetInfo& info = shown.source()->info();
   const std::optional<UtcTime> step = info.steps ? info.steps->at_or_before(time) : std::nullopt;
-  const auto is_there = [&](const ImageLayer& layer) {
-    return layer.id() == shown.id() && step && instant_of(layer) == step;
-  };
-  const bool is_coming = std::ranges::any_of(coming, [&](const auto& layer) { return is_there(*layer); });
-  if (is_coming || is_there(shown)) return Done{};
-  drop_ahead(shown.id());
+  if (step && (instant_of(shown) == step || coming_at(shown, *step) != nullptr)) return Done{};
+  drop_coming(shown.id(), Coming::ahead);
   changed = true;
   return ask_for_time(shown, time, {.is_ahead = true});
 }
@@ -137,7 +138,7 @@ Status Globe::load_layer_time(LayerId imagery, std::optional<UtcTime> time) {
   const ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::load_layer_time", "image layer", imagery);
   if (time) return impl_->load_ahead(*shown, *time);
-  impl_->drop_ahead(imagery);
+  impl_->drop_coming(imagery, Impl::Coming::ahead);
   return Done{};
 }
 

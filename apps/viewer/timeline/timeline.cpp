@@ -91,21 +91,14 @@ void Timeline::play(bool on) {
   for (const TimedLayer& layer : layers_()) static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
 }
 
-// A failure is told when the instant is asked for.
-void Timeline::load_next(const std::vector<TimedLayer>& layers) {
-  const auto next = layers.empty() ? std::nullopt : next_step(joined(layers), now(layers), play_);
-  if (!next) return;
-  for (const TimedLayer& layer : layers) static_cast<void>(context_.globe.load_layer_time(layer.id, next));
-}
-
-void Timeline::advance(Seconds now_s) {
+void Timeline::advance() {
   if (!playing_ || is_coming()) return;
   const std::vector<TimedLayer> layers = layers_();
-  if (seconds_left(kLongestStep_s) > 0.0) return load_next(layers);
   const auto next = layers.empty() ? std::nullopt : next_step(joined(layers), now(layers), play_);
-  if (!next) return play(false);
-  go(*next);
-  stepped_ = now_s;
+  if (seconds_left(kLongestStep_s) <= 0.0) return next ? go(*next) : play(false);
+  if (!next) return;
+  // A failure is told when the instant is asked for.
+  for (const TimedLayer& layer : layers) static_cast<void>(context_.globe.load_layer_time(layer.id, next));
 }
 
 bool Timeline::changed() const { return playing_ && seconds_left(kLongestStep_s) <= 0.0 && !is_coming(); }

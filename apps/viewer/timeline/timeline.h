@@ -31,8 +31,8 @@ class Timeline : public Panel {
 
   /// The instants on the screen, each with its layer if there are several.
   [[nodiscard]] std::vector<std::string> shown() const;
-  /// Asks for the next instant, if it is time for it. Call it once per frame.
-  void advance(Seconds now);
+  /// Asks for the next instant if it is time for it, else loads it. Call it once per frame.
+  void advance();
 
   [[nodiscard]] bool changed() const override;
   /// Seconds until the next instant, at most `most_s`; `most_s` while pausing.
@@ -47,7 +47,6 @@ class Timeline : public Panel {
   void draw_choices();
   void draw_dates(const std::vector<TimedLayer>& layers) const;
   void play(bool on);
-  void load_next(const std::vector<TimedLayer>& layers);  ///< loads the instant that the play shows next
   void step(bool backwards);
   void go(UtcTime time);
   /// The instant that was asked for last of these layers; else the one that the highest layer shows.
