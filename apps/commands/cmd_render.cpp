@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/commands/units_option.h"
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/open_scene/options/shard_option.h"
@@ -128,6 +129,9 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
   sub.add_flag("--legend", command.legend,
                "Draw a colour bar with units for each raster of numbers, and the classes of --object-style");
   sub.add_flag("--credits", command.credits, "Write the sources of imagery and map into the upper right corner");
+  sub.add_flag("--scale-bar", command.scale_bar,
+               "Draw a bar with a round length on the ground in the lower right corner");
+  add_units_option(sub, command.units)->needs(sub.get_option("--scale-bar"))->default_str("metric");
   sub.add_flag("--json", command.json, "Print the result as one JSON object");
   sub.footer(
       "Examples:\n"

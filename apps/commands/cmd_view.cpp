@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
+#include "apps/commands/units_option.h"
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/open_imagery.h"
@@ -59,6 +60,7 @@ struct ViewOptions {
   bool print_camera = false;
   bool print_panels = false;
   bool full_screen = false;
+  std::optional<LengthUnits> units;
   KeptSettings kept;
   bool first_run = false;
   std::string message;
@@ -67,7 +69,7 @@ struct ViewOptions {
 
 /// True if the command line says nothing about the scene.
 bool names_no_scene(const CLI::App& command) {
-  constexpr std::array kBeside = {"--size",  "--fullscreen", "--print-camera", "--print-panels",
+  constexpr std::array kBeside = {"--size",  "--fullscreen", "--print-camera", "--print-panels", "--units",
                                   "--cache", "--cache-size", "--memory",       "--offline"};
   return std::ranges::none_of(command.get_options(), [&kBeside](const CLI::Option* option) {
     return option->count() > 0 && std::ranges::find(kBeside, option->get_name()) == kBeside.end();
@@ -239,6 +241,7 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
                                      .scene = explored,
                                      .map = wanted.map.value_or(options.kept.map && !wanted.unlit),
                                      .kept = options.kept,
+                                     .units = options.units.value_or(options.kept.units),
                                      .first_run = options.first_run,
                                      .message = first_message(options, *scene)};
   Viewer viewer(window, *scene->globe, viewer_options);
@@ -263,6 +266,7 @@ Result<ViewOptions> next_options(const ViewOptions& options, const Explored& exp
   next.scene = new_scene(options.scene, window.framebuffer());
   next.full_screen = false;  // the window is as the user left it
   next.first_run = false;
+  next.units.reset();
   next.message.clear();
   if (const auto file = settings_file()) next.kept = load_settings(*file).settings;
   if (explored.next->empty()) return next;
@@ -313,6 +317,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
                     "Print where panels and labels are, as JSON, to standard output each time this changes");
   command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
+  add_units_option(*command, options->units)->default_str("those of the last start, at first metric");
   command->footer(kHelpFooter);
   options->scene.surface.inner_sphere_srgb = kInnerSphere_srgb;
   command->callback([options, command, &exit_code] {

@@ -341,6 +341,7 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   PictureOverlay overlay{.graticule = own.command.scene.graticule.value_or(false), .map = own.map.get()};
   if (own.command.legend) overlay.legend = legend_of(own.scene);
   if (own.command.credits) overlay.credits = thanks;
+  if (own.command.scale_bar) overlay.scale_units = own.command.units;
   if (const Status drawn = draw_over_picture(globe, framebuffer, size, overlay); !drawn) {
     return Error{where + drawn.error().message};
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/open_scene/options/scene_options.h"
+#include "apps/viewer/panels/readout.h"
 #include "base/result.h"
 #include "codecs/image.h"
 #include "globe/features/point_clusters.h"
@@ -22,7 +23,9 @@ struct RenderCommand {
   bool json = false;
   bool legend = false;
   bool credits = false;
-  bool more_objects = false;  ///< objects with labels may be added to the globe later
+  bool scale_bar = false;
+  LengthUnits units = LengthUnits::metric;  ///< of the scale bar
+  bool more_objects = false;                ///< objects with labels may be added to the globe later
 };
 
 /// A picture and the facts of its making.

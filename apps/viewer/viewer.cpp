@@ -40,6 +40,7 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       cutting_(context_, std::exchange(options_.cuts, {})) {
   graticule_.is_on() = options.scene.graticule.value_or(options.kept.graticule);
   map_.is_on() = options.map;
+  ui_.use_units(options.units);
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
   saved_ = options.kept;

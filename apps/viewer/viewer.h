@@ -47,9 +47,10 @@ struct ViewerOptions {
   std::vector<std::weak_ptr<GrowingCut>> cuts = {};  ///< in the background; the layers own them
   std::vector<LayerRow> layers = {};            ///< the globe's layers: heights, imagery from bottom to top, objects
   std::optional<ElevationSource> heights = {};  ///< the globe's heights
-  SceneOptions scene = {};   ///< options of the scene: how files are opened, and what the window cannot change
-  bool map = true;           ///< show the map, if there is one of the body
-  KeptSettings kept = {};    ///< settings from the file
+  SceneOptions scene = {};  ///< options of the scene: how files are opened, and what the window cannot change
+  bool map = true;          ///< show the map, if there is one of the body
+  KeptSettings kept = {};   ///< settings from the file
+  LengthUnits units = LengthUnits::metric;
   bool first_run = false;    ///< true: show a hint
   std::string message = {};  ///< first message; may be empty
 };
@@ -129,10 +130,10 @@ class Viewer {
   GlobeFrame frame_;
   GraticuleLines graticule_{context_};
   MapLayer map_{context_, options_.scene.places};
-  BookmarkViews bookmarks_{context_};
   Help help_{context_, actions()};
   Pictures pictures_{context_, [this] { return overlay(); }};
   Search search_{context_, options_.scene.places};
+  BookmarkViews bookmarks_{context_, [this] { return search_.place_shown(); }};
   FrameGraph frame_graph_{context_};
   Layers layers_;
   OpenDialog open_{context_, [this](std::filesystem::path file) { open_file(std::move(file)); }};

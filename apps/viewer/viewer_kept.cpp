@@ -13,7 +13,8 @@ KeptSettings Viewer::now_kept() {
           .layers = layers_.is_open(),
           .graticule = graticule_.is_on(),
           .map = map_.is_on(),
-          .restore = projects_.restores()};
+          .restore = projects_.restores(),
+          .units = ui_.units()};
 }
 
 SceneOptions Viewer::scene() const {

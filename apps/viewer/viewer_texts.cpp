@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "apps/viewer/viewer.h"
@@ -23,9 +22,9 @@ PanelStatus Viewer::status(const View& view) {
     status.cursor = place_text(*place, pixel_step_deg(view, ground));
     if (const std::string value = layers_.value_at(*place, cursor->x); !value.empty()) status.cursor += "   " + value;
     const auto elevation_m = globe_.elevation_m(place->lat, place->lon);
-    if (elevation_m) status.cursor += "   " + length_text(std::round(*elevation_m));
+    if (elevation_m) status.cursor += "   " + height_text(*elevation_m, ui_.units());
   }
-  status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m);
+  status.eye = "Altitude " + length_text(navigator_.camera().eye.height_m, ui_.units());
   const int loading = frame_.stats().tiles_pending;
   if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
   if (const auto& time = globe_.options().time) status.time = time_text(*time);
@@ -35,7 +34,7 @@ PanelStatus Viewer::status(const View& view) {
   if (!status.attribution.empty()) last_attribution_ = status.attribution;
   status.last_attribution = last_attribution_;
   const double most_px = std::min(kScaleBar_px * window_.text_scale(), kScaleBarShare * view.viewport.width_px);
-  status.scale = scale_bar(view, ground, most_px);
+  status.scale = scale_bar(view, ground, most_px, ui_.units());
   return status;
 }
 

@@ -1,22 +1,26 @@
 #if defined(BICUBIC)
-// Catmull-Rom's bicubic filter in five bilinear look-ups: the middle two texels of a row, and of a column, lie under one
-// look-up. The four corners, each under 1/180, are left out.
+// Weights of four texels in a row for a position between the second and the third, by Catmull and Rom.
+vec4 cubic_weights(float f) {
+  float g = 1.0 - f;
+  return vec4(-0.5 * f * g * g, g * (0.5 + g * (2.0 - 1.5 * g)), f * (0.5 + f * (2.0 - 1.5 * f)), -0.5 * f * f * g);
+}
+
+// Catmull-Rom's bicubic filter. No value is outside of those of its texels, so that no dark rim lies beside snow.
 Imagery bicubic_tap(Cell cell, vec2 p) {
   vec3 at = slot_point(cell, p);
-  float slot_px = texels.y;
-  vec2 texel = at.xy * slot_px - 0.5;
-  vec2 f = fract(texel), g = 1.0 - f;
-  vec2 before = -0.5 * f * g * g, after = -0.5 * f * f * g, second = f * (0.5 + f * (2.0 - 1.5 * f));
-  vec2 middle = 1.0 - before - after;
-  vec2 whole = floor(texel) + 0.5;
-  vec2 p0 = (whole - 1.0) / slot_px, p1 = (whole + second / middle) / slot_px, p3 = (whole + 2.0) / slot_px;
-  vec4 sum = middle.x * middle.y * textureLod(tiles_precise, vec3(p1, at.z), 0.0);
-  sum += before.x * middle.y * textureLod(tiles_precise, vec3(p0.x, p1.y, at.z), 0.0);
-  sum += after.x * middle.y * textureLod(tiles_precise, vec3(p3.x, p1.y, at.z), 0.0);
-  sum += middle.x * before.y * textureLod(tiles_precise, vec3(p1.x, p0.y, at.z), 0.0);
-  sum += middle.x * after.y * textureLod(tiles_precise, vec3(p1.x, p3.y, at.z), 0.0);
-  vec4 texel_sum = sum / (middle.x * middle.y + (before.x + after.x) * middle.y + middle.x * (before.y + after.y));
-  float alpha = clamp(texel_sum.a, 0.0, 1.0);
-  return IMAGERY(vec4(clamp(texel_sum.rgb, 0.0, alpha), alpha));
+  vec2 texel = at.xy * texels.y - 0.5;
+  ivec3 first = ivec3(ivec2(floor(texel)) - 1, int(at.z + 0.5));
+  vec4 across = cubic_weights(fract(texel.x)), down = cubic_weights(fract(texel.y));
+  vec4 sum = vec4(0.0), least = vec4(1.0), most = vec4(0.0);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      vec4 value = texelFetch(tiles_precise, first + ivec3(column, row, 0), 0);
+      sum += across[column] * down[row] * value;
+      least = min(least, value);
+      most = max(most, value);
+    }
+  }
+  vec4 seen_sum = clamp(sum, least, most);
+  return IMAGERY(vec4(min(seen_sum.rgb, seen_sum.a), seen_sum.a));
 }
 #endif

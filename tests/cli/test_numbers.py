@@ -116,6 +116,25 @@ class Shown(NumbersTest):
         self.assertLess(max(columns), 320)
         self.assertGreater(min(rows), 400)
 
+    def test_the_scale_bar_is_drawn_into_the_lower_right(self):
+        """As long as the ground says: a camera straight down, 45° from the middle to the upper edge."""
+        plain = ("render", TEMPERATURE, "--camera", "0,-140,512000,0,-90,90", "--unlit", "--cache", "off",
+                 "--size", "512x512", "-o")
+        self.assert_done(*plain, "plain.png")
+        before = self.pixels("plain.png")
+        for name, more, least_m in (("km.png", [], 200_000), ("mi.png", ["--units", "imperial"], 100 * 1609.344),
+                                    ("nm.png", ["--units", "nautical"], 100 * 1852)):
+            self.assert_done(*plain, name, "--scale-bar", *more)
+            differ = [i for i, (a, b) in enumerate(zip(before, self.pixels(name))) if a != b]
+            columns, rows = [i % 512 for i in differ], [i // 512 for i in differ]
+            self.assertGreater(min(rows), 440)
+            self.assertGreater(min(columns), 256)
+            self.assertLess(max(columns), 511)
+            panel_px = max(columns) - min(columns) + 1  # the bar with the padding of its panel
+            self.assertGreater(panel_px, least_m / 2000)
+            self.assertLess(panel_px, least_m / 2000 + 40)
+        self.assert_fails(WRONG_USAGE, *plain, "no.png", "--units", "miles", says=["--units", "imperial"])
+
     def pixels(self, name):
         gdal("gdal_translate", "-q", "-of", "ENVI", "-co", "INTERLEAVE=BIP", self.folder / name, self.folder / "p.raw")
         data = (self.folder / "p.raw").read_bytes()

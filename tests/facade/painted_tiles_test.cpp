@@ -1,6 +1,9 @@
 // Tiles that an application paints itself, from raw pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "tests/gl/gl_fixture.h"
 #include "tests/scene/patch_test_support.h"
 #include "tiles/painted_tiles.h"
@@ -40,6 +43,37 @@ TEST_F(PaintedTiles, ShowTheirPixelsFromTheNorthWestCorner) {
   EXPECT_GT(south_east[1], north_west[1]);
   EXPECT_EQ(north_west[2], 0);
   EXPECT_TRUE(globe->missing_tiles().empty());
+}
+
+// Snow beside rock has no dark rim and no light one: a magnified picture has no value outside of those of its texels.
+TEST_F(PaintedTiles, MagnifiedHaveNoValueOutsideOfTheirTexels) {
+  constexpr int kLeast = 60, kMost = 200;
+  const auto snow_and_rock = [](const TileId&) {
+    Image image{64, 64, {}};
+    std::minstd_rand random(7);
+    for (int k = 0; k < 64 * 64; ++k) {
+      const auto value = static_cast<std::uint8_t>(random() % 2 == 0 ? kLeast : kMost);
+      image.rgba.insert(image.rgba.end(), {value, value, value, 255});
+    }
+    return image;
+  };
+  GlobeOptions options = unlit_options();
+  options.surface.sharpness = Sharpness::bicubic;
+  const auto globe = make_globe(options, painted_tiles(kPaintedGrid, snow_and_rock));
+  globe->set_camera(camera_at(-20, 20, 1.0e6));
+  settle(*globe, kPainted);
+  const Picture shot = picture();
+  int least = 255, most = 0;
+  for (int y = 0; y < kPainted.height_px; ++y) {
+    for (int x = 0; x < kPainted.width_px; ++x) {
+      least = std::min<int>(least, shot.at(x, y)[0]);
+      most = std::max<int>(most, shot.at(x, y)[0]);
+    }
+  }
+  EXPECT_GE(least, kLeast - 1) << "1 level: rounding";
+  EXPECT_LE(most, kMost + 1);
+  EXPECT_LT(least, kLeast + 20) << "texels are magnified, not averaged";
+  EXPECT_GT(most, kMost - 20);
 }
 
 // Whatever goes wrong in the application's function, the tile is missing, and the message says why.

@@ -22,12 +22,14 @@ TEST(Bookmarks, AreThereInTheNextRunToTheLastBit) {
   auto bookmarks = Bookmarks::load(file);
   ASSERT_TRUE(bookmarks) << "a file that is not there has none";
   bookmarks->set(1, somewhere());
-  bookmarks->set(9, {});
+  bookmarks->set(9, {}, "Zürich, Switzerland");
   ASSERT_TRUE(bookmarks->save(file));
   const auto again = Bookmarks::load(file);
   ASSERT_TRUE(again);
   ASSERT_TRUE(again->at(1) && again->at(9));
   EXPECT_FALSE(again->at(2));
+  EXPECT_EQ(again->all().at(9).place, "Zürich, Switzerland");
+  EXPECT_EQ(again->all().at(1).place, "");
   EXPECT_EQ(again->at(1)->eye.height_m, somewhere().eye.height_m);
   EXPECT_NEAR(again->at(1)->eye.lat.deg(), 46.1, 1e-13);
 }

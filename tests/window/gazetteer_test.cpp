@@ -54,6 +54,22 @@ TEST(Gazetteer, AnExactNameComesBeforeLongerOnesWhateverTheirSize) {
   EXPECT_EQ(places->find("mexico", 1)[0]->people, 43694.0) << "a town of this name before Mexico City";
 }
 
+TEST(Gazetteer, NamesAPlaceByItsLargestNeighbour) {
+  auto places = Gazetteer::load(TERRELLA_PLACES);
+  ASSERT_TRUE(places);
+  const auto nearest = [&places](double lat, double lon, double distance_deg) {
+    const NamedPlace* found =
+        places->near({.lat = Angle::degrees(lat), .lon = Angle::degrees(lon)}, Angle::degrees(distance_deg));
+    return found == nullptr ? std::string() : found->name;
+  };
+  EXPECT_EQ(nearest(47.38, 8.54, 0.1), "Zürich");
+  EXPECT_EQ(nearest(-17.7, 178.4, 1.0), nearest(-17.7, 178.4 - 360.0, 1.0));
+  EXPECT_EQ(nearest(-40.0, -140.0, 2.0), "") << "the ocean";
+  ASSERT_TRUE(places->add_countries(TERRELLA_MAP));
+  EXPECT_EQ(nearest(46.9, 8.2, 1.0), "Switzerland") << "seen whole";
+  EXPECT_EQ(nearest(47.38, 8.54, 0.1), "Zürich") << "seen from nearby";
+}
+
 TEST(Gazetteer, CountriesOfTheMapAreFound) {
   auto places = Gazetteer::load(TERRELLA_PLACES);
   ASSERT_TRUE(places);

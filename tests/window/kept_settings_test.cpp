@@ -33,8 +33,13 @@ class KeptSettingsFile : public testing::Test {
 
 TEST_F(KeptSettingsFile, WhatWasSavedIsLoaded) {
   EXPECT_TRUE(load_settings(file).first_run);
-  const KeptSettings settings{
-      .width_px = 900, .height_px = 700, .panel = true, .layers = true, .graticule = true, .map = false};
+  const KeptSettings settings{.width_px = 900,
+                              .height_px = 700,
+                              .panel = true,
+                              .layers = true,
+                              .graticule = true,
+                              .map = false,
+                              .units = LengthUnits::nautical};
   ASSERT_TRUE(save_settings(file, settings));
   const LoadedSettings loaded = load_settings(file);
   EXPECT_EQ(loaded.settings, settings);
@@ -50,7 +55,8 @@ TEST_F(KeptSettingsFile, WhatOthersHaveWrittenThereStays) {
 }
 
 TEST_F(KeptSettingsFile, ADamagedFileIsToldOfAndKeptBesideIt) {
-  for (const std::string text : {"{\"panel\": fal", "[1]", R"({"width": -3, "panel": true})", R"({"graticule": 7})"}) {
+  for (const std::string text :
+       {"{\"panel\": fal", "[1]", R"({"width": -3, "panel": true})", R"({"graticule": 7})", R"({"units": 3})"}) {
     SCOPED_TRACE(text);
     write(text);
     const LoadedSettings loaded = load_settings(file);

@@ -42,7 +42,8 @@ TEST_P(PanelBoxes, TheStatusLineAndTheScaleBarDoNotOverlap) {
   status.eye = "Altitude 15,200 km";
   status.tiles = "127 tiles loading";
   status.time = "2026-06-21 12:00 UTC";
-  status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
+  status.scale = ScaleBar{
+      .length_m = 2.0e6, .text = "2,000 km", .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
   const float foot = draw_status(status, 1.0);
   const std::vector<UiBox> boxes = Ui::panel_boxes();
   ASSERT_FALSE(boxes.empty());
@@ -59,7 +60,7 @@ void draw_all(float width, float scale, bool with_panel) {
   status.cursor = "46.02100 N   7.74900 E   4,478 m";
   status.eye = "Altitude 15,200 km";
   status.attribution = "NASA Blue Marble, Natural Earth";
-  status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * scale, 0.5 * width)};
+  status.scale = ScaleBar{.length_m = 2.0e6, .text = "2,000 km", .width_px = std::min(150.0 * scale, 0.5 * width)};
   const float foot = draw_status(status, 1.0);
   draw_head(status);
   if (with_panel) {

@@ -46,7 +46,8 @@ class PanelRoom : public test::PanelScreen {
     status.message = "Saved terrella-20260621-120000.png";
     status.job = "Cutting the_moon_in_colours.tif: 12 %; Esc cancels";
     status.attribution = "NASA Earth Observatory (Blue Marble Next Generation)   U.S. Geological Survey";
-    status.scale = ScaleBar{.length_m = 2.0e6, .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
+    status.scale = ScaleBar{
+        .length_m = 2.0e6, .text = "2,000 km", .width_px = std::min(150.0 * GetParam().scale, 0.5 * GetParam().width)};
     return status;
   }
   /// Draws as the viewer does, with a panel between texts and legend.

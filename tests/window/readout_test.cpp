@@ -40,6 +40,41 @@ TEST(AreaText, HasThreeDigitsAndGroups) {
   EXPECT_EQ(area_text(510.07e12), "510,070,000 km²");
 }
 
+// Lengths of units: a foot 0.3048 m, a statute mile 5,280 ft, a nautical mile 1,852 m, by their definitions.
+TEST(LengthText, IsInTheUnitsOfTheUser) {
+  EXPECT_EQ(length_text(100.0 * 0.3048, LengthUnits::imperial), "100 ft");
+  EXPECT_EQ(length_text(999.0 * 0.3048, LengthUnits::imperial), "999 ft");
+  EXPECT_EQ(length_text(26.2 * 5280.0 * 0.3048, LengthUnits::imperial), "26.2 mi");
+  EXPECT_EQ(length_text(-500.0, LengthUnits::nautical), "-500 m");
+  EXPECT_EQ(length_text(60.0 * 1852.0, LengthUnits::nautical), "60 NM");
+  EXPECT_EQ(area_text(90.0, LengthUnits::imperial), "969 ft²");
+  EXPECT_EQ(area_text(640.0 * 4046.8564224, LengthUnits::imperial), "1 mi²") << "640 acres";
+  EXPECT_EQ(area_text(1.0e6, LengthUnits::nautical), "0.29 NM²");
+}
+
+TEST(HeightText, IsWhole) {
+  EXPECT_EQ(height_text(4478.3), "4,478 m");
+  EXPECT_EQ(height_text(-0.3), "0 m");
+  EXPECT_EQ(height_text(-10935.0), "-10,935 m");
+  EXPECT_EQ(height_text(8848.86, LengthUnits::imperial), "29,032 ft");
+  EXPECT_EQ(height_text(4478.3, LengthUnits::nautical), "4,478 m");
+}
+
+TEST(ScaleBar, IsRoundInTheUnitsOfTheUser) {
+  for (const LengthUnits units : {LengthUnits::imperial, LengthUnits::nautical}) {
+    for (double height_m = 2.0; height_m < 1e8; height_m *= 1.7) {
+      const View view = make_view(down(46, 7, height_m), earth().ellipsoid, {1024, 768});
+      const auto bar = scale_bar(view, earth().ellipsoid, 150.0, units);
+      ASSERT_TRUE(bar.has_value());
+      EXPECT_LE(bar->width_px, 150.0 + 1e-9);
+      EXPECT_GT(bar->width_px, 150.0 / 5.0 - 1e-9) << "a mile may be less than a thousand feet more";
+      std::string digits = bar->text.substr(0, bar->text.find(' '));
+      std::erase_if(digits, [](char letter) { return letter == ',' || letter == '.' || letter == '0'; });
+      EXPECT_TRUE(digits == "1" || digits == "2" || digits == "5") << bar->text;
+    }
+  }
+}
+
 TEST(ScaleBar, IsARoundLengthThatFits) {
   for (double height_m = 2.0; height_m < 1e8; height_m *= 1.7) {
     const View view = make_view(down(46, 7, height_m), earth().ellipsoid, {1024, 768});

@@ -1,9 +1,10 @@
 """A user's way to a distance: search a place, measure, save a picture."""
 
+import json
 import unittest
 
 import png
-from real_window import SIZE, WindowTest
+from real_window import SIZE, WindowTest, differing, wait_until
 
 
 class Tools(WindowTest):
@@ -39,6 +40,39 @@ class Tools(WindowTest):
         self.assertAlmostEqual(there.lat, 10.0, places=5)
         self.assertAlmostEqual(there.lon, 20.0, places=5)
         self.assertAlmostEqual(there.height_m, 9e6, delta=1.0)
+
+    def test_units_are_chosen_and_kept(self):
+        """By mouse and keyboard: the scale bar and the altitude change, and the next start has them."""
+        where = ("--camera", "46,8,3000000")
+
+        def foot(viewer):
+            """The rows of the window with altitude and scale bar."""
+            viewer.xdotool("mousemove", "400", "100")
+            return viewer.settled()[-60:]
+
+        def chosen():
+            return json.loads((self.kept / "terrella" / "settings.json").read_text(encoding="utf-8")).get("units")
+
+        viewer = self.start(*where)
+        metric = foot(viewer)
+        viewer.key("p")
+        left, top, _, bottom = wait_until("the panel", lambda: viewer.layout.panels.get("View"))
+        viewer.wheel(round(left) + 300, round(bottom) - 60, -40)
+        viewer.settled()
+        viewer.click(round(left) + 90, round(bottom) - 22)
+        for key in ("Down", "Down", "space"):
+            viewer.settled()
+            viewer.key(key)
+        wait_until("nautical miles", lambda: chosen() == 2)
+        viewer.key("p")
+        nautical = foot(viewer)
+        self.assertGreater(differing(metric, nautical), 100)
+        viewer.close()
+        viewer = self.start(*where)
+        self.assertEqual(differing(foot(viewer), nautical), 0)
+        viewer.close()
+        self.assertEqual(differing(foot(self.start(*where, "--units", "metric")), metric), 0)
+        self.assertEqual(chosen(), 2, "an option is for one start")
 
     def test_a_way_and_an_area_are_measured(self):
         viewer = self.start("--camera", "0,20,9000000")

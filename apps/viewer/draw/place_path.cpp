@@ -48,12 +48,15 @@ bool PlacePath::ends_at(glm::dvec2 at_px) const {
   return last_px && glm::distance(*last_px, at_px) <= kSamePlace_px * double(context_.window.text_scale());
 }
 
-std::string PlacePath::text() const { return tool_.text(context_.globe.options().body.ellipsoid); }
+std::string PlacePath::text() const {
+  return tool_.text(context_.globe.options().body.ellipsoid, {}, context_.ui.units());
+}
 
-std::string PlacePath::draw_to(const View& view, std::optional<glm::dvec2> cursor_px) const {
+std::string PlacePath::draw_to(const View& view, std::optional<glm::dvec2> cursor_px) {
+  if (layer_ && shown_units_ != context_.ui.units()) show();
   const auto next = cursor_px && !places().empty() ? pick(view, context_.globe.ground(), *cursor_px) : std::nullopt;
   if (next && context_.globe.options().stereo.mode == Stereo::off) draw_band(view, *next);
-  return tool_.text(context_.globe.options().body.ellipsoid, next);
+  return tool_.text(context_.globe.options().body.ellipsoid, next, context_.ui.units());
 }
 
 // Only the part on the near side of the globe.
@@ -75,8 +78,9 @@ void PlacePath::draw_band(const View& view, const Geodetic& to) const {
 }
 
 void PlacePath::show() {
+  shown_units_ = context_.ui.units();
   Globe& globe = context_.globe;
-  ObjectScene scene = tool_.scene(globe.options().body.ellipsoid, context_.window.text_scale());
+  ObjectScene scene = tool_.scene(globe.options().body.ellipsoid, context_.window.text_scale(), context_.ui.units());
   Status shown = Done{};
   if (layer_) {
     shown = globe.set_objects(*layer_, std::move(scene));

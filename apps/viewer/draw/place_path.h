@@ -26,7 +26,7 @@ class PlacePath {
   [[nodiscard]] bool ends_at(glm::dvec2 at_px) const;
   /// Draws the line from the last place to the cursor under the panels, and returns the text of the path with the way
   /// to it. `cursor_px`: pixel of the framebuffer; nullopt beside the globe.
-  [[nodiscard]] std::string draw_to(const View& view, std::optional<glm::dvec2> cursor_px) const;
+  [[nodiscard]] std::string draw_to(const View& view, std::optional<glm::dvec2> cursor_px);
   /// The text of the path.
   [[nodiscard]] std::string text() const;
 
@@ -36,6 +36,7 @@ class PlacePath {
 
   const ViewerContext context_;
   MeasureTool tool_;
+  LengthUnits shown_units_ = LengthUnits::metric;  ///< units of the labels
   std::optional<LayerId> layer_;
 };
 

@@ -6,7 +6,6 @@
 
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
-#include "apps/viewer/panels/readout.h"
 
 namespace terrella {
 namespace {
@@ -43,11 +42,11 @@ BookmarkWish draw_edit(BookmarkEdit& edit) {
   return wish;
 }
 
-BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit) {
+BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit, LengthUnits units) {
   BookmarkWish wish{.number = number};
   const float edit_width = ImGui::CalcTextSize("Edit").x + 2.0F * ImGui::GetStyle().FramePadding.x;
   const float width = ImGui::GetContentRegionAvail().x - edit_width - ImGui::GetStyle().ItemSpacing.x;
-  const std::string text = fmt::format("{}   {}###row", number, panel_text(shown_name(bookmark)));
+  const std::string text = fmt::format("{}   {}###row", number, panel_text(shown_name(bookmark, units)));
   if (ImGui::Selectable(text.c_str(), false, 0, {width, 0.0F}) || entered()) wish.ask = BookmarkAsk::fly_to;
   tip(number <= Bookmarks::kKeys ? fmt::format("{}: flies there.", number) : "Flies there.");
   ImGui::SameLine();
@@ -64,13 +63,14 @@ BookmarkWish draw_row(int number, const Bookmark& bookmark, BookmarkEdit& edit) 
 
 }  // namespace
 
-std::string shown_name(const Bookmark& bookmark) {
+std::string shown_name(const Bookmark& bookmark, LengthUnits units) {
   if (!bookmark.name.empty()) return bookmark.name;
-  return place_text(bookmark.camera.eye, kNameStep_deg) + "   " + length_text(bookmark.camera.eye.height_m);
+  if (!bookmark.place.empty()) return bookmark.place;
+  return place_text(bookmark.camera.eye, kNameStep_deg) + "   " + length_text(bookmark.camera.eye.height_m, units);
 }
 
-BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit, bool removed, float foot,
-                            bool just_opened) {
+BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit, LengthUnits units,
+                            bool removed, float foot, bool just_opened) {
   const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
   const float right = std::min(left + kBookmarksWidth * unit, ImGui::GetIO().DisplaySize.x - left);
   place_panel(Ui::panel_room(left, right, foot));
@@ -84,7 +84,7 @@ BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, Bookm
   if (removed && ImGui::Button("Restore")) wish.ask = BookmarkAsk::restore;
   for (const auto& [number, bookmark] : bookmarks.all()) {
     ImGui::PushID(number);
-    const BookmarkWish asked = draw_row(number, bookmark, edit);
+    const BookmarkWish asked = draw_row(number, bookmark, edit, units);
     if (asked.ask != BookmarkAsk::none) wish = asked;
     ImGui::PopID();
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "apps/viewer/panels/readout.h"
 #include "apps/viewer/tools/bookmarks.h"
 
 namespace terrella {
@@ -22,12 +23,12 @@ struct BookmarkEdit {
   bool just_opened = false;
 };
 
-/// Name of a bookmark, or its place and height if it has none.
-[[nodiscard]] std::string shown_name(const Bookmark& bookmark);
+/// Name of a bookmark; without one that of its place, or else its coordinates and height.
+[[nodiscard]] std::string shown_name(const Bookmark& bookmark, LengthUnits units);
 
 /// Draws the panel at the left edge, between Ui::begin_frame() and Ui::end_frame(). `foot` units at the lower edge stay
 /// free. `just_opened` gives the panel the keyboard; `removed` offers to take back a removal. thread: main
 [[nodiscard]] BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit,
-                                          bool removed, float foot, bool just_opened);
+                                          LengthUnits units, bool removed, float foot, bool just_opened);
 
 }  // namespace terrella

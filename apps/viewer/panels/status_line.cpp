@@ -113,19 +113,18 @@ MessageRoom room_for_message(float foot) {
 /// Size of the scale bar with its text, without the panel's padding.
 ImVec2 scale_size(const ScaleBar& bar, double unit_px) {
   const float unit = ImGui::GetFontSize();
-  const float text = ImGui::CalcTextSize(length_text(bar.length_m).c_str()).x;
+  const float text = ImGui::CalcTextSize(bar.text.c_str()).x;
   return {std::max(static_cast<float>(bar.width_px / unit_px), text), unit + kTick * unit + 2.0F};
 }
 
-void draw_scale(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
-  const std::string text = length_text(bar.length_m);
+void draw_bar(const ScaleBar& bar, ImVec2 lower_right, double unit_px) {
   const ImVec2 size = scale_size(bar, unit_px);
   const float width = static_cast<float>(bar.width_px / unit_px);
   const float tick = kTick * ImGui::GetFontSize();
   begin_fixed("##scale", lower_right, {1.0F, 1.0F}, size);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddText({at.x + 0.5F * (size.x - ImGui::CalcTextSize(text.c_str()).x), at.y}, kInk, text.c_str());
+  list->AddText({at.x + 0.5F * (size.x - ImGui::CalcTextSize(bar.text.c_str()).x), at.y}, kInk, bar.text.c_str());
   const float left = at.x + 0.5F * (size.x - width);
   const float base = at.y + size.y;
   const ImVec2 points[] = {{left, base - tick}, {left, base}, {left + width, base}, {left + width, base - tick}};
@@ -146,13 +145,18 @@ float draw_foot(const PanelStatus& status, double unit_px) {
   const ImVec2 scale = scale_size(*status.scale, unit_px);
   const bool above = row_width(fields) + gap + scale.x + 2.0F * padding.x > room;
   const float foot = above ? 1.5F * gap + row : gap;
-  draw_scale(*status.scale, {size.x - gap, size.y - foot}, unit_px);
+  draw_bar(*status.scale, {size.x - gap, size.y - foot}, unit_px);
   return foot + scale.y + 2.0F * padding.y;
 }
 
 }  // namespace
 
 float draw_status(const PanelStatus& status, double unit_px) { return draw_foot(status, unit_px); }
+
+void draw_scale(const ScaleBar& bar) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  draw_bar(bar, {size.x - margin(), size.y - margin()}, 1.0);
+}
 
 void draw_head(const PanelStatus& status) {
   const ImVec2 size = ImGui::GetIO().DisplaySize, padding = ImGui::GetStyle().WindowPadding;

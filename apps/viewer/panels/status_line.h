@@ -29,6 +29,9 @@ struct PanelStatus {
 /// height that they use at the lower edge, in units.
 float draw_status(const PanelStatus& status, double unit_px);
 
+/// Draws a scale bar alone in the lower right corner of a picture, whose pixels are the units.
+void draw_scale(const ScaleBar& bar);
+
 /// Draws the job and the message above the `foot` units at the lower edge, beside the panels of the last frame if there
 /// is room.
 void draw_message(const PanelStatus& status, float foot);

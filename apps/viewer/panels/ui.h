@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/viewer/panels/readout.h"
 #include "apps/viewer/window.h"
 
 namespace terrella {
@@ -93,6 +94,9 @@ class Ui {
   [[nodiscard]] static UiBox panel_room(float left, float right, float foot);
   /// Counts opened panels, so that the newest one can be told.
   [[nodiscard]] unsigned next_panel() { return ++panels_; }
+  /// Units of the lengths in panels and labels.
+  [[nodiscard]] LengthUnits units() const { return units_; }
+  void use_units(LengthUnits units) { units_ = units; }
 
  private:
   enum class Stroke { press, release, character };
@@ -105,6 +109,7 @@ class Ui {
   const Window& window_;
   std::deque<KeyEvent> waiting_;  ///< in order of arrival
   unsigned panels_ = 0;
+  LengthUnits units_ = LengthUnits::metric;
   bool text_expected_ = false;
   bool field_ready_ = false;
   bool mouse_held_ = false;

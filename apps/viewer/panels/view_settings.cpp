@@ -198,6 +198,9 @@ const Action* draw_view_settings(const char* title, ViewSettings& settings, std:
   draw_stereo(settings.stereo);
   group("Light and detail");
   draw_light(settings);
+  group("Texts");
+  choose("Units", settings.units, std::array{"metric", "imperial", "nautical"});
+  tip("Units of the scale bar, of heights and of measured lengths and areas. Kept for the next start.");
   ImGui::PopItemWidth();
   ImGui::End();
   return clicked;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/viewer/action.h"
+#include "apps/viewer/panels/readout.h"
 #include "base/utc_time.h"
 #include "view/render_modes.h"
 
@@ -27,6 +28,7 @@ struct ViewSettings {
   double speed = 1.0;    ///< seconds of the sky per second
   bool has_relief = false;
   double exaggeration = 1.0;
+  LengthUnits units = LengthUnits::metric;
 };
 
 /// Text of a time for its field; empty without a time. thread: any

@@ -29,7 +29,7 @@ void BookmarkViews::fly_to(int number) {
 
 void BookmarkViews::save(int number) {
   if (!load()) return;
-  bookmarks_.set(number, context_.navigator.camera());
+  bookmarks_.set(number, context_.navigator.camera(), place_shown_());
   keep(fmt::format("Bookmark {} saved", number));
 }
 
@@ -49,7 +49,8 @@ void BookmarkViews::keep(const std::string& done) const {
 
 void BookmarkViews::draw_open(float foot) {
   const bool just_opened = take_just_opened();
-  const BookmarkWish wish = draw_bookmarks(panel(), bookmarks_, edit_, removed_.has_value(), foot, just_opened);
+  const BookmarkWish wish =
+      draw_bookmarks(panel(), bookmarks_, edit_, context_.ui.units(), removed_.has_value(), foot, just_opened);
   if (wish.ask == BookmarkAsk::fly_to) return fly_to(wish.number);
   if (wish.ask == BookmarkAsk::save) return save_as_next();
   if (wish.ask != BookmarkAsk::none && load()) change(wish);
@@ -60,7 +61,7 @@ void BookmarkViews::change(const BookmarkWish& wish) {
   if (wish.ask == BookmarkAsk::restore && removed_) {
     const auto [number, bookmark] = *std::exchange(removed_, {});
     const int free = bookmarks_.at(number) ? bookmarks_.free_number().value_or(number) : number;
-    bookmarks_.set(free, bookmark.camera);
+    bookmarks_.set(free, bookmark.camera, bookmark.place);
     bookmarks_.rename(free, bookmark.name);
     return keep(fmt::format("Bookmark {} restored", free));
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "apps/viewer/panels/bookmark_panel.h"
@@ -12,7 +14,9 @@ namespace terrella {
 /// Saves views under numbers and names, and flies to them. Owns the bookmarks and their panel. thread: main
 class BookmarkViews : public Panel {
  public:
-  explicit BookmarkViews(const ViewerContext& context) : Panel(context, "Bookmarks") {}
+  /// `place_shown`: name of the place in the middle of the view; empty if none is known.
+  BookmarkViews(const ViewerContext& context, std::function<std::string()> place_shown)
+      : Panel(context, "Bookmarks"), place_shown_(std::move(place_shown)) {}
 
   // `number` in [1, Bookmarks::kMost].
   void fly_to(int number);
@@ -29,6 +33,7 @@ class BookmarkViews : public Panel {
   /// Writes the file and tells how it went.
   void keep(const std::string& done) const;
 
+  std::function<std::string()> place_shown_;
   Bookmarks bookmarks_;
   BookmarkEdit edit_;
   std::optional<std::pair<int, Bookmark>> removed_;  ///< by the last removal

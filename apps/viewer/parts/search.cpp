@@ -57,6 +57,19 @@ Result<Gazetteer> Search::load() const {
   }
 }
 
+std::string Search::place_shown() {
+  constexpr double kMiddle = 0.15;  // share of the window's height
+  if (!can_open()) return {};
+  const Viewport size = context_.window.framebuffer();
+  const View view = context_.globe.view(size);
+  const Ground ground = context_.globe.ground();
+  const auto middle = pick(view, ground, context_.middle_px());
+  if (!middle) return {};
+  const NamedPlace* place =
+      places_->near(*middle, Angle::degrees(kMiddle * size.height_px * pixel_step_deg(view, ground)));
+  return place == nullptr ? std::string() : full_name(*place);
+}
+
 void Search::toggled() {
   text_.clear();
   if (!is_open()) context_.ui.expect_text(false);

@@ -18,6 +18,8 @@ class Search : public Panel {
       : Panel(context, "Search"), file_(std::move(places)) {}
 
   void take_keyboard() override;
+  /// Name of the place in the middle of the view, with its country; empty if none is known. Loads the list of places.
+  [[nodiscard]] std::string place_shown();
 
  private:
   bool can_open() override;

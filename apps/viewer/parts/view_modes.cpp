@@ -36,6 +36,7 @@ ViewSettings ViewModes::modes() const {
   modes.speed = play_.speed();
   modes.has_relief = context_.globe.has_relief();
   modes.exaggeration = options.exaggeration;
+  modes.units = context_.ui.units();
   return modes;
 }
 
@@ -47,6 +48,7 @@ void ViewModes::apply(const ViewSettings& settings) {
   if (settings.stereo != options.stereo) globe.set_stereo(settings.stereo);
   if (settings.sky != sky_) globe.set_sky(sky_ = settings.sky);
   if (settings.exaggeration != options.exaggeration) globe.set_exaggeration(settings.exaggeration);
+  context_.ui.use_units(settings.units);
   play_.set_speed(settings.speed);
   if (settings.playing != play_.is_playing()) play_.play(settings.playing);
   if (settings.night_lights != globe.has_night_lights()) {
@@ -111,7 +113,9 @@ void ViewModes::toggle_sky() {
 }
 
 void ViewModes::reset() {
-  apply(start_);
+  ViewSettings start = start_;
+  start.units = context_.ui.units();  // a habit of the user, not a mode
+  apply(start);
   underground_.return_above();
   context_.navigator.key(NavigationKey::whole_globe, Input::now());
   say("View reset");

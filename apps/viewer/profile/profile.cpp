@@ -137,7 +137,7 @@ void Profile::draw_plot(const char* name, const std::string& unit, std::optional
   const float x = at.x + size.x * static_cast<float>(nearest->along_m / whole_m);
   list->AddLine({x, at.y}, {x, at.y + size.y}, kPlotHand, line_width(1.0F));
   const auto& value = (*nearest).*what;
-  tip(fmt::format("{}: {}", length_text(nearest->along_m), value ? written(*value) : "no data"));
+  tip(fmt::format("{}: {}", length_text(nearest->along_m, context_.ui.units()), value ? written(*value) : "no data"));
 }
 
 void Profile::save() const {

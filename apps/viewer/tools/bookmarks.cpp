@@ -13,6 +13,15 @@ namespace {
 
 constexpr const char* kField = "bookmarks";
 constexpr const char* kNames = "names";
+constexpr const char* kPlaces = "places";
+
+/// The text of a number in a field of the file; empty if there is none.
+std::string text_in(const nlohmann::json& file, const char* field, const std::string& number) {
+  const auto texts = file.find(field);
+  if (texts == file.end() || !texts->is_object()) return {};
+  const auto text = texts->find(number);
+  return text != texts->end() && text->is_string() ? text->get<std::string>() : std::string();
+}
 
 }  // namespace
 
@@ -23,27 +32,25 @@ Result<Bookmarks> Bookmarks::load(const std::filesystem::path& file) {
   if (json->is_null()) return bookmarks;
   const auto kept = json->find(kField);
   if (kept == json->end() || !kept->is_object()) return Error{file.string() + ": not a file of bookmarks"};
-  const auto names = json->find(kNames);
   for (int number = 1; number <= kMost; ++number) {
     const auto found = kept->find(std::to_string(number));
     if (found == kept->end() || !found->is_string()) continue;
     const Result<Camera> camera = parse_camera(found->get<std::string>());
     if (!camera) continue;
-    bookmarks.set(number, *camera);
-    if (names == json->end() || !names->is_object()) continue;
-    const auto name = names->find(found.key());
-    if (name != names->end() && name->is_string()) bookmarks.rename(number, name->get<std::string>());
+    bookmarks.bookmarks_[number] = {
+        .camera = *camera, .name = text_in(*json, kNames, found.key()), .place = text_in(*json, kPlaces, found.key())};
   }
   return bookmarks;
 }
 
 Status Bookmarks::save(const std::filesystem::path& file) const {
-  nlohmann::json cameras = nlohmann::json::object(), names = nlohmann::json::object();
+  nlohmann::json cameras = nlohmann::json::object(), names = cameras, places = cameras;
   for (const auto& [number, bookmark] : bookmarks_) {
     cameras[std::to_string(number)] = camera_text(bookmark.camera);
     if (!bookmark.name.empty()) names[std::to_string(number)] = bookmark.name;
+    if (!bookmark.place.empty()) places[std::to_string(number)] = bookmark.place;
   }
-  const nlohmann::json json{{kField, cameras}, {kNames, names}};
+  const nlohmann::json json{{kField, cameras}, {kNames, names}, {kPlaces, places}};
   return write_kept_json(file, json);
 }
 
@@ -52,7 +59,11 @@ std::optional<Camera> Bookmarks::at(int number) const {
   return found == bookmarks_.end() ? std::nullopt : std::optional(found->second.camera);
 }
 
-void Bookmarks::set(int number, const Camera& camera) { bookmarks_[number].camera = camera; }
+void Bookmarks::set(int number, const Camera& camera, std::string place) {
+  Bookmark& bookmark = bookmarks_[number];
+  bookmark.camera = camera;
+  bookmark.place = std::move(place);
+}
 
 void Bookmarks::rename(int number, std::string name) {
   const auto found = bookmarks_.find(number);

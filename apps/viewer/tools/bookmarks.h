@@ -13,7 +13,8 @@ namespace terrella {
 /// A stored view of the user.
 struct Bookmark {
   Camera camera;
-  std::string name = {};  ///< UTF-8; empty: none given
+  std::string name = {};   ///< UTF-8; empty: none given
+  std::string place = {};  ///< name of the place in the middle of the view, UTF-8; empty: none is known
 };
 
 /// Numbered views of the user with names, kept in a file between runs. thread: one
@@ -31,8 +32,8 @@ class Bookmarks {
 
   /// `number` in [1, kMost].
   [[nodiscard]] std::optional<Camera> at(int number) const;
-  /// Stores a view; a name that the number has stays.
-  void set(int number, const Camera& camera);
+  /// Stores a view and its place; a name that the number has stays.
+  void set(int number, const Camera& camera, std::string place = {});
   void rename(int number, std::string name);
   void remove(int number) { bookmarks_.erase(number); }
   /// Exchanges two numbers; one of them may be empty.

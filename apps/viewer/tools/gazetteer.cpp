@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "apps/viewer/tools/folded_text.h"
+#include "geo/ellipsoid.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 
@@ -150,6 +152,18 @@ std::vector<const NamedPlace*> Gazetteer::find(std::string_view text, std::size_
   found.insert(found.end(), has.begin(), has.end());
   found.resize(std::min(found.size(), most));
   return found;
+}
+
+const NamedPlace* Gazetteer::near(const Geodetic& place, Angle distance) const {
+  constexpr double kLargestCountry = 20.0;  // side of its area, in distances
+  constexpr double kDegree_km = 111.2;      // on the mean sphere of the Earth, as the areas
+  const glm::dvec3 here = Ellipsoid::normal(place.lat, place.lon).xyz;
+  const double least = std::cos(distance.rad()), most_km = kLargestCountry * kDegree_km * distance.deg();
+  const auto found = std::ranges::find_if(places_, [&](const NamedPlace& other) {
+    return std::sqrt(other.area_km2) < most_km &&
+           glm::dot(here, Ellipsoid::normal(other.place.lat, other.place.lon).xyz) >= least;
+  });
+  return found == places_.end() ? nullptr : &*found;
 }
 
 }  // namespace terrella

@@ -42,6 +42,9 @@ class Gazetteer {
   /// Finds at most `most` places. Names that are the text come first, then names that begin with it, then names that
   /// contain it; each sorted by rank_of(). Case and accents do not count. A blank text finds nothing.
   [[nodiscard]] std::vector<const NamedPlace*> find(std::string_view text, std::size_t most) const;
+  /// The place of the highest rank within a distance of another place, for example of the middle of a view. Countries
+  /// much larger than that are left out. Null if there is none.
+  [[nodiscard]] const NamedPlace* near(const Geodetic& place, Angle distance) const;
   [[nodiscard]] const std::vector<NamedPlace>& places() const { return places_; }  ///< the highest rank first
   [[nodiscard]] std::size_t size() const { return places_.size(); }
 

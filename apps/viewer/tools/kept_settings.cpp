@@ -25,6 +25,7 @@ void for_each_setting(Visit visit) {
   visit("graticule", &KeptSettings::graticule);
   visit("map", &KeptSettings::map);
   visit("restore", &KeptSettings::restore);
+  visit("units", &KeptSettings::units);
 }
 
 bool read_field(const Json& field, bool& value) {
@@ -36,6 +37,13 @@ bool read_field(const Json& field, int& value) {
   const std::int64_t number = field.is_number_integer() ? field.get<std::int64_t>() : -1;
   if (number < 0 || number > kMaxSide_px) return false;
   value = int(number);
+  return true;
+}
+
+bool read_field(const Json& field, LengthUnits& value) {
+  int number = 0;
+  if (!read_field(field, number) || number > int(LengthUnits::nautical)) return false;
+  value = LengthUnits(number);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/viewer/panels/readout.h"
 #include "base/result.h"
 
 namespace terrella {
@@ -16,6 +17,7 @@ struct KeptSettings {
   bool graticule = false;
   bool map = true;
   bool restore = true;  ///< start with the scene that was last open
+  LengthUnits units = LengthUnits::metric;
   bool operator==(const KeptSettings&) const = default;
 };
 

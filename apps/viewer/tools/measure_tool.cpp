@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/viewer/panels/readout.h"
 #include "geo/measure.h"
 
 namespace terrella {
@@ -17,21 +16,24 @@ void MeasureTool::take_back() {
   if (!places_.empty()) places_.pop_back();
 }
 
-std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next) const {
+std::string MeasureTool::text(const Ellipsoid& ellipsoid, const std::optional<Geodetic>& next,
+                              LengthUnits units) const {
   if (places_.empty()) return "Measuring: click a place, or press Enter for the centre";
   const double next_m = next ? geodesic_m(ellipsoid, places_.back(), *next) : 0.0;
-  const bool away = length_text(next_m) != length_text(0.0);
+  const bool away = length_text(next_m, units) != length_text(0.0, units);
   if (places_.size() == 1 && !away) return "Measuring: click the next place";
   const double length_m = path_m(ellipsoid, places_);
-  const std::string total = length_text(length_m + next_m);
+  const std::string total = length_text(length_m + next_m, units);
   std::string text = "Length ";
-  if (away && places_.size() > 1) text += fmt::format("{} + {} = ", length_text(length_m), length_text(next_m));
+  if (away && places_.size() > 1)
+    text += fmt::format("{} + {} = ", length_text(length_m, units), length_text(next_m, units));
   text += total;
-  if (encloses_ && places_.size() > 2) text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2);
+  if (encloses_ && places_.size() > 2)
+    text += "   Area " + area_text(polygon_measure(ellipsoid, places_).area_m2, units);
   return text;
 }
 
-ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
+ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale, LengthUnits units) const {
   ObjectScene scene;
   constexpr HeightMode kOnGround = HeightMode::clamp_to_ground;
   for (const Geodetic& place : places_) {
@@ -40,14 +42,14 @@ ObjectScene MeasureTool::scene(const Ellipsoid& ellipsoid, float scale) const {
   if (places_.size() < 2) return scene;
   scene.lines.push_back({.places = places_, .width_px = scale * kWay_px, .color = kMeasureInk, .heights = kOnGround});
   for (std::size_t k = 1; k < places_.size(); ++k) {
-    scene.labels.push_back({.text = length_text(geodesic_m(ellipsoid, places_[k - 1], places_[k])),
+    scene.labels.push_back({.text = length_text(geodesic_m(ellipsoid, places_[k - 1], places_[k]), units),
                             .place = geodesic_places(ellipsoid, places_[k - 1], places_[k], 3)[1],
                             .size_px = scale * kWay_px,
                             .priority = 1.0,
                             .heights = kOnGround});
   }
   if (places_.size() < 3) return scene;
-  scene.labels.push_back({.text = "Total " + length_text(path_m(ellipsoid, places_)),
+  scene.labels.push_back({.text = "Total " + length_text(path_m(ellipsoid, places_), units),
                           .place = places_.back(),
                           .size_px = scale * kMarker_px,
                           .priority = 2.0,

@@ -21,7 +21,9 @@ namespace {
 /// Pictures up to this height have text of the window's size; taller ones have larger text.
 constexpr float kPlainHeight_px = 1024.0F;
 constexpr float kMost = 8.0F;
-constexpr double kGap = 0.8;  // in text heights, to the picture's edge
+constexpr double kScaleBar = 10.0;      // in text heights, width at most
+constexpr double kScaleBarShare = 0.5;  // of the picture's width
+constexpr double kGap = 0.8;            // in text heights, to the picture's edge
 
 /// A context of Dear ImGui of its own, beside that of a window.
 class PictureUi {
@@ -68,6 +70,10 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
   PanelStatus status;
   status.attribution = fmt::format("{}", fmt::join(overlay.credits, "   "));
   draw_head(status);
+  if (overlay.scale_units) {
+    const double most_px = std::min(kScaleBar * Ui::text_height(), kScaleBarShare * size.width_px);
+    if (const auto bar = scale_bar(view, globe.ground(), most_px, *overlay.scale_units)) draw_scale(*bar);
+  }
   std::vector<UiBox> taken = Ui::panel_boxes();
   std::ranges::move(object_labels(globe, 1.0), std::back_inserter(taken));
   if (overlay.graticule) {
