@@ -24,7 +24,7 @@ struct RenderCommand {
   bool legend = false;
   bool credits = false;
   bool scale_bar = false;
-  LengthUnits units = LengthUnits::metric;  ///< of the scale bar
+  LengthUnits units = LengthUnits::metric;  ///< units of the scale bar
   bool more_objects = false;                ///< objects with labels may be added to the globe later
 };
 

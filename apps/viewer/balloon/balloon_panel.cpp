@@ -23,7 +23,7 @@ constexpr float kLeastBalloon = 5.0F;
 constexpr float kNameWidth = 18.0F;                            // in text heights, of the name at the pointer
 constexpr std::array<float, 3> kShares = {1.0F, 0.7F, 0.45F};  // shares of the size, if there is little room
 const ImVec4 kLinkInk(0.45F, 0.72F, 1.0F, 1.0F);
-const ImVec4 kLinkGround(0.45F, 0.72F, 1.0F, 0.2F);  // under the pointer
+const ImVec4 kLinkGround(0.45F, 0.72F, 1.0F, 0.1F);  // under the pointer
 
 /// A text of the balloon, wrapped.
 struct BalloonItem {

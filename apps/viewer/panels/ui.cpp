@@ -13,25 +13,12 @@
 #include <utility>
 
 #include "apps/viewer/panels/panel_fonts.h"
+#include "apps/viewer/panels/theme.h"
 
 namespace terrella {
 namespace {
 
 constexpr float kTopMargin = 0.8F;  // in text heights
-
-void set_style(float scale) {
-  ImGuiStyle& style = ImGui::GetStyle();
-  style = ImGuiStyle();
-  ImGui::StyleColorsDark();
-  style.WindowRounding = 7.0F;
-  style.WindowBorderSize = 0.0F;
-  style.WindowPadding = ImVec2(12.0F, 7.0F);
-  style.ItemSpacing = ImVec2(10.0F, 5.0F);
-  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.05F, 0.08F, 0.12F, 0.72F);
-  style.Colors[ImGuiCol_Text] = ImVec4(0.91F, 0.94F, 0.97F, 1.0F);
-  style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62F, 0.70F, 0.78F, 1.0F);
-  style.ScaleAllSizes(scale);
-}
 
 // Fits text to the window. Where the window's units exceed pixels, the font is rendered at pixel size and displayed at
 // unit size.
@@ -39,7 +26,7 @@ void fit_to(const Window& window) {
   const float unit_px = static_cast<float>(window.pixels_per_unit().x);
   load_panel_fonts(window.text_scale());
   ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
-  set_style(window.text_scale() / unit_px);
+  set_theme(window.text_scale() / unit_px);
 }
 
 /// True for a window that the program drew in this frame.
@@ -203,7 +190,7 @@ void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusC
 
 void Ui::use_text(float scale) {
   load_panel_fonts(scale);
-  set_style(scale);
+  set_theme(scale);
 }
 
 double Ui::text_height() { return double(ImGui::GetFontSize()); }

@@ -22,7 +22,7 @@ namespace {
 constexpr float kPlainHeight_px = 1024.0F;
 constexpr float kMost = 8.0F;
 constexpr double kScaleBar = 10.0;      // in text heights, width at most
-constexpr double kScaleBarShare = 0.5;  // of the picture's width
+constexpr double kScaleBarShare = 0.5;  // width at most, share of the picture's
 constexpr double kGap = 0.8;            // in text heights, to the picture's edge
 
 /// A context of Dear ImGui of its own, beside that of a window.
