@@ -71,6 +71,7 @@ TEST_F(Theme, MarksAndFocusCanBeSeen) {
   for (const ImGuiCol mark : {ImGuiCol_CheckMark, ImGuiCol_SliderGrab}) {
     EXPECT_GE(least(mark, ImGuiCol_FrameBg), 3.0) << ImGui::GetStyleColorName(mark);
   }
+  EXPECT_GE(least(ImGuiCol_Border, ImGuiCol_WindowBg), 3.0) << "of a box without its mark";
   EXPECT_GE(least(ImGuiCol_NavHighlight, ImGuiCol_WindowBg), 3.0);
   EXPECT_GE(least(ImGuiCol_NavHighlight, ImGuiCol_Button), 3.0);
 }

@@ -146,6 +146,7 @@ ControlColumn draw_control_column(std::span<const Action> actions, Angle heading
   ImGui::SetNextWindowSize({width, height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0F);
   ImGui::PushStyleColor(ImGuiCol_Button, 0U);
   ImGui::Begin("##controls", nullptr, kFloatingWindow);
   for (const Action* action : buttons) {
@@ -154,7 +155,7 @@ ControlColumn draw_control_column(std::span<const Action> actions, Angle heading
   }
   ImGui::End();
   ImGui::PopStyleColor();
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
   return column;
 }
 

@@ -21,7 +21,8 @@ void set_colors(ImVec4* colors) {
   colors[ImGuiCol_TextSelectedBg] = color(0x336699, 0.8F);
   colors[ImGuiCol_WindowBg] = ground;
   colors[ImGuiCol_PopupBg] = color(0x121B28, 0.97F);
-  colors[ImGuiCol_Border] = colors[ImGuiCol_Separator] = line;
+  colors[ImGuiCol_Border] = color(0x8092A6, 0.9F);
+  colors[ImGuiCol_Separator] = line;
   colors[ImGuiCol_FrameBg] = field;
   colors[ImGuiCol_FrameBgHovered] = field_hovered;
   colors[ImGuiCol_FrameBgActive] = field_active;
@@ -48,7 +49,8 @@ void set_theme(float scale) {
   set_colors(style.Colors);
   style.WindowRounding = style.PopupRounding = 7.0F;
   style.FrameRounding = style.GrabRounding = 4.0F;
-  style.WindowBorderSize = 0.0F;
+  style.WindowBorderSize = style.PopupBorderSize = 0.0F;
+  style.FrameBorderSize = 1.0F;
   style.WindowPadding = ImVec2(12.0F, 7.0F);
   style.ItemSpacing = ImVec2(10.0F, 5.0F);
   style.ScaleAllSizes(scale);
