@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -20,13 +19,9 @@
 namespace terrella {
 namespace {
 
-/// The time that a text names, now for "current", "now" and "present".
+/// The time that a text names, now for "current" and the like.
 std::optional<NamedTime> read_end(std::string_view text, UtcTime now) {
-  std::string word(text);
-  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (word == "current" || word == "now" || word == "present") {
-    return NamedTime{.from = now, .before = now + std::chrono::milliseconds(1)};
-  }
+  if (names_newest(text)) return NamedTime{.from = now, .before = now + std::chrono::milliseconds(1)};
   return read_named_time(text);
 }
 

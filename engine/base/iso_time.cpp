@@ -80,6 +80,14 @@ std::optional<std::chrono::milliseconds> length_of(char unit, bool is_clock) {
 
 }  // namespace
 
+bool names_newest(std::string_view text) {
+  constexpr std::array<std::string_view, 4> kWords = {"current", "latest", "now", "present"};
+  const auto is = [text](std::string_view word) {
+    return std::ranges::equal(text, word, [](char a, char b) { return (a | 0x20) == b; });
+  };
+  return std::ranges::any_of(kWords, is);
+}
+
 std::optional<NamedTime> read_named_time(std::string_view text) {
   namespace chrono = std::chrono;
   const auto span = [](year_month_day from, year_month_day before, TimePrecision precision) {

@@ -22,6 +22,9 @@ struct NamedTime {
 /// Reads YYYY[-MM[-DD[Thh:mm[:ss[.fraction]]]]][Z] in UTC; nothing for other texts.
 [[nodiscard]] std::optional<NamedTime> read_named_time(std::string_view text);
 
+/// True for words of servers for their newest time, in any case: "current", "latest", "now", "present".
+[[nodiscard]] bool names_newest(std::string_view text);
+
 /// Writes an instant with a precision, as read_named_time() reads it. Finer parts are left out.
 [[nodiscard]] std::string time_text(UtcTime time, TimePrecision precision, bool with_z);
 

@@ -29,13 +29,6 @@ std::int64_t last_step(const TimeSeries& series, UtcTime time) {
   return time >= series.last ? series.count - 1 : step_at(series.first, series.period, time);
 }
 
-bool is_now(std::string_view text) {
-  const auto is = [text](std::string_view word) {
-    return std::ranges::equal(text, word, [](char a, char b) { return (a | 0x20) == b; });
-  };
-  return is("current") || is("now") || is("present");
-}
-
 TimeSeries one_instant(const NamedTime& time) {
   return {.first = time.from, .last = time.from, .precision = time.precision, .has_z = time.has_z};
 }
@@ -72,7 +65,7 @@ Status append(const std::string& value, UtcTime now, std::vector<TimeSeries>& al
     return Done{};
   }
   const std::string_view end = text.substr(one + 1, two == text.npos ? two : two - one - 1);
-  auto last = is_now(end) ? NamedTime{.from = now} : read_named_time(end);
+  auto last = names_newest(end) ? NamedTime{.from = now} : read_named_time(end);
   if (!last) return Error{fmt::format("the end of {} is no time in UTC of ISO 8601", shown())};
   if (last->from < first->from) return Error{fmt::format("{} ends before it begins", shown())};
   TimeSeries series = one_instant(*first);

@@ -19,9 +19,6 @@ constexpr std::array<std::string_view, 12> kMonths = {"January",   "February", "
                                                       "May",       "June",     "July",     "August",
                                                       "September", "October",  "November", "December"};
 
-/// Words of servers for their newest time.
-constexpr std::array<std::string_view, 4> kNewest = {"current", "latest", "now", "present"};
-
 /// The fields of a time in UTC that the codes of a format write.
 struct TimeFields {
   explicit TimeFields(UtcTime time)
@@ -92,12 +89,10 @@ bool has_time(std::string_view url) {
   return url.find("{time}") != std::string_view::npos || url.find("{time:") != std::string_view::npos;
 }
 
-bool means_newest(std::string_view time) { return std::ranges::find(kNewest, time) != kNewest.end(); }
-
 /// The instant that a time names, the last step for "current" and the like; none for "default", which a server may mean
 /// as it likes.
 std::optional<UtcTime> instant_named(const TimeSteps& steps, const std::string& time) {
-  if (means_newest(time)) return steps.last();
+  if (names_newest(time)) return steps.last();
   const auto named = read_named_time(time);
   return named ? std::optional(named->from) : std::nullopt;
 }
@@ -182,7 +177,7 @@ Status choose_template_time(RemoteTileSet& set, const RemoteOptions& options, co
   const UtcTime now = floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   Result<TimeSteps> steps = TimeSteps::parse(options.times, now);
   if (!steps) return Error{fmt::format("{}: ‹times›: {}", where, steps.error().message)};
-  if (!options.time.empty() && !read_named_time(options.time) && !means_newest(options.time) &&
+  if (!options.time.empty() && !read_named_time(options.time) && !names_newest(options.time) &&
       options.time != "default") {
     return Error{fmt::format("{}: ‹time› {} is no time in UTC of ISO 8601, such as 2026-06-21", where,
                              in_quotes(options.time.substr(0, 80)))};

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "apps/open_scene/options/option_checks.h"
+#include "base/iso_time.h"
 #include "base/number.h"
 #include "base/time_steps.h"
 #include "streaming/http/http_headers.h"
@@ -27,7 +28,7 @@ CLI::Validator sendable_header() {
 CLI::Validator is_time() {
   return {[](const std::string& text) -> std::string {
             const bool iso = !text.empty() && (std::string_view("0123456789P+-").find(text.front()) != text.npos);
-            if (iso || text == "current" || text == "default" || text == "latest" || text == "present") return {};
+            if (iso || text == "default" || names_newest(text)) return {};
             return in_quotes(text) + " is no time; write it as 2024-07-01 or 2024-07-01T12:00:00Z";
           },
           ""};
