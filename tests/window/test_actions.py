@@ -130,7 +130,7 @@ class Walk(WindowTest):
         """Clicks a button of the row, found by its blue."""
         left, _, right, bottom = map(int, self.viewer.layout.panels["measure"])  # beside it the sea is blue too
         row = self.viewer.grab()[bottom - ROW_BUTTONS]
-        blue = [(pixel & 255) - (pixel >> 16 & 255) > 70 for pixel in row]
+        blue = [(pixel & 255) - (pixel >> 16 & 255) > 50 for pixel in row]
         starts = [x for x in range(left + 1, right) if blue[x] and not blue[x - 1] and all(blue[x : x + 20])]
         self.viewer.click(starts[index] + 12, bottom - ROW_BUTTONS + 7)
         time.sleep(0.15)
