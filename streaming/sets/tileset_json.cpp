@@ -22,7 +22,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kVersion = 1;
-constexpr const char* kCutKeyField = "cut_key";
 /// Format of tiles of floats.
 constexpr const char* kTiffEnding = "tif";
 
