@@ -151,7 +151,9 @@ WriteResult<SqliteWriter> SqliteWriter::make_private(const std::filesystem::path
   if (file < 0) return error_of(nullptr, SQLITE_IOERR, errno);
   close(file);
   WriteResult<SqliteWriter> made = open(path, Mode::existing);
-  for (const char* pragma : {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "PRAGMA cache_size = -65536"}) {
+  // SQLite counts the pages of the cache by the size that they have then.
+  for (const char* pragma : {"PRAGMA page_size = 8192", "PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF",
+                             "PRAGMA cache_size = -65536"}) {
     if (!made) break;
     if (WriteStatus done = made->run(pragma); !done) return done.error();
   }

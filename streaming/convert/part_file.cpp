@@ -28,12 +28,18 @@ Status PartFile::open() {
 }
 
 Status PartFile::append(std::span<const std::byte> bytes) {
+  if (Status put = write_at(size_, bytes); !put) return put;
+  size_ += bytes.size();
+  return Done{};
+}
+
+Status PartFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = write(file_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return cannot_write(output_, written == 0 ? ENOSPC : errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    size_ += static_cast<std::uint64_t>(written);
+    const ssize_t more = pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (more < 0 && errno == EINTR) continue;
+    if (more <= 0) return cannot_write(output_, more == 0 ? ENOSPC : errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(more));
+    offset += static_cast<std::uint64_t>(more);
   }
   return Done{};
 }

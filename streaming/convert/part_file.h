@@ -27,6 +27,8 @@ class PartFile {
   [[nodiscard]] Status append(std::span<const std::byte> bytes);
   /// Appends bytes of another file.
   [[nodiscard]] Status append(const PartFile& from, ByteRange range);
+  /// Replaces bytes that were appended.
+  [[nodiscard]] Status write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   /// Reads bytes that were appended.
   [[nodiscard]] Result<std::vector<std::byte>> read(const ByteRange& range) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }

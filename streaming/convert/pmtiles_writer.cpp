@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/hash_mix.h"
 #include "streaming/convert/part_file.h"
 #include "streaming/convert/web_tiles.h"
 #include "streaming/cut/output/tile_writer.h"
@@ -17,7 +19,7 @@
 namespace terrella {
 namespace {
 
-/// Lists on the disk. `start` is an offset in the file of contents, `place` one in the archive's tile data.
+/// Lists on the disk. `start` is an offset in the file of contents, `place` one in the section of tiles.
 constexpr const char* kScratchSchema[] = {
     "CREATE TABLE contents (hash INTEGER PRIMARY KEY, start INTEGER, length INTEGER)",
     "CREATE TABLE tiles (number INTEGER PRIMARY KEY, start INTEGER, length INTEGER)",
@@ -65,17 +67,18 @@ PmtilesTileType tile_type_of(ImageFormat format) {
   return PmtilesTileType::unknown;
 }
 
-/// Stores each content once, in the order of arrival, in a file beside the archive, and lists the tiles in a database.
-/// finish() writes directories and contents in the order of tile numbers.
+/// Stores each content once, in the order of arrival, behind a gap for header and root directory, and lists the tiles
+/// in a database. finish() fills the gap and appends metadata and leaf directories. If tiles did not come in the order
+/// of their numbers, it copies the contents in that order before.
 class PmtilesWriter : public TileWriter {
  public:
   explicit PmtilesWriter(const WriterSetup& setup)
       : setup_(setup),
         scratch_path_(setup.part.string() + ".scratch"),
         zoom_of_roots_(zoom_of_roots(setup.info.grid)),
-        contents_(setup.part.string() + ".contents", setup.output),
-        leaves_(setup.part.string() + ".leaves", setup.output),
-        archive_(setup.part.string() + ".pmtiles", setup.output) {}
+        contents_(setup.part.string() + ".pmtiles", setup.output),
+        sorted_(setup.part.string() + ".sorted", setup.output),
+        leaves_(setup.part.string() + ".leaves", setup.output) {}
   ~PmtilesWriter() override {
     sql_.reset();
     scratch_.reset();
@@ -85,9 +88,7 @@ class PmtilesWriter : public TileWriter {
   PmtilesWriter& operator=(const PmtilesWriter&) = delete;
 
   [[nodiscard]] Status open() {
-    for (PartFile* file : {&contents_, &archive_}) {
-      if (Status opened = file->open(); !opened) return opened;
-    }
+    if (Status opened = open_with_gap(contents_); !opened) return opened;
     return written(setup_.output, make_scratch());
   }
 
@@ -97,7 +98,10 @@ class PmtilesWriter : public TileWriter {
     const auto start = store(bytes);
     if (!start) return start.error();
     ++header_.addressed_tiles;
-    return run(sql_->add_tile, {signed_number(tile_number(web)), *start, std::ssize(bytes)});
+    const std::uint64_t number = tile_number(web);
+    in_order_ = in_order_ && number >= next_number_;
+    next_number_ = number + 1;
+    return run(sql_->add_tile, {signed_number(number), *start, std::ssize(bytes)});
   }
 
   [[nodiscard]] Status finish() override {
@@ -105,12 +109,19 @@ class PmtilesWriter : public TileWriter {
     if (Status placed = place_tiles(); !placed) return placed;
     const auto root = pack_directories();
     if (!root) return root.error();
-    if (Status joined = write_archive(*root); !joined) return joined;
-    if (Status synced = sync_to_disk(archive_.path()); !synced) return synced;
-    return take_name(archive_.path(), setup_.output, setup_.may_replace);
+    if (Status sorted = sort_contents(); !sorted) return sorted;
+    PartFile& archive = in_order_ ? contents_ : sorted_;
+    if (Status complete = complete_archive(archive, *root); !complete) return complete;
+    if (Status synced = sync_to_disk(archive.path()); !synced) return synced;
+    return take_name(archive.path(), setup_.output, setup_.may_replace);
   }
 
  private:
+  [[nodiscard]] static Status open_with_gap(PartFile& file) {
+    if (Status opened = file.open(); !opened) return opened;
+    return file.append(std::vector<std::byte>(kPmtilesHeadBytes));
+  }
+
   WriteStatus make_scratch() {
     auto scratch = SqliteWriter::make_private(scratch_path_);
     if (!scratch) return scratch.error();
@@ -144,7 +155,7 @@ class PmtilesWriter : public TileWriter {
 
   /// Returns the start of the content. Contents with equal hashes are compared.
   [[nodiscard]] Result<std::int64_t> store(std::span<const std::byte> bytes) {
-    const std::int64_t hash = signed_number(name_hash(as_text(bytes)));
+    const std::int64_t hash = signed_number(std::hash<std::string_view>()(as_text(bytes)));
     const auto found = find(sql_->find_content, hash);
     if (!found) return found.error();
     if (found->has_value() && (*found)->second == std::ssize(bytes)) {
@@ -155,6 +166,8 @@ class PmtilesWriter : public TileWriter {
     }
     const std::int64_t start = signed_number(contents_.size());
     if (Status appended = contents_.append(bytes); !appended) return appended.error();
+    ++header_.tile_contents;
+    header_.tiles.length += bytes.size();
     if (found->has_value()) return start;
     if (Status added = run(sql_->add_content, {hash, start, std::ssize(bytes)}); !added) return added.error();
     return start;
@@ -173,14 +186,13 @@ class PmtilesWriter : public TileWriter {
     }
   }
 
-  /// Returns the place of a content in the archive, the next free one for a new content.
+  /// Returns the place of a content in the archive. Contents that are not in order get the next free place.
   [[nodiscard]] Result<std::int64_t> place_of(std::int64_t start, std::int64_t length) {
+    if (in_order_) return start - signed_number(kPmtilesHeadBytes);
     const auto found = find(sql_->find_place, start);
     if (!found) return found.error();
     if (found->has_value()) return (*found)->first;
-    const std::int64_t place = signed_number(header_.tiles.length);
-    header_.tiles.length += static_cast<std::uint64_t>(length);
-    ++header_.tile_contents;
+    const std::int64_t place = std::exchange(free_place_, free_place_ + length);
     if (Status added = run(sql_->add_place, {start, place}); !added) return added.error();
     return place;
   }
@@ -267,46 +279,49 @@ class PmtilesWriter : public TileWriter {
     return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   }
 
-  [[nodiscard]] Status write_archive(const std::vector<std::byte>& root) {
+  /// Appends metadata and leaf directories, and writes header and root directory into the gap.
+  [[nodiscard]] Status complete_archive(PartFile& archive, const std::vector<std::byte>& root) {
     const std::string said = metadata();
     const auto packed = pack(std::as_bytes(std::span(said)));
     if (!packed) return packed.error();
     header_.root = {.offset = kPmtilesHeaderBytes, .length = root.size()};
-    header_.metadata = {.offset = header_.root.offset + root.size(), .length = packed->size()};
-    header_.leaves = {.offset = header_.metadata.offset + packed->size(), .length = leaves_.size()};
-    header_.tiles.offset = header_.leaves.offset + leaves_.size();
+    header_.tiles.offset = kPmtilesHeadBytes;
+    header_.metadata = {.offset = archive.size(), .length = packed->size()};
+    header_.leaves = {.offset = archive.size() + packed->size(), .length = leaves_.size()};
     header_.directory_compression = PmtilesCompression::gzip;
+    header_.tile_compression = PmtilesCompression::none;
     header_.min_level = zooms_.least;
     header_.max_level = zooms_.most;
     header_.bounds = web_bounds(setup_.info.grid);
     header_.tile_type = tile_type_of(setup_.info.format);
     header_.clustered = true;
+    if (Status appended = archive.append(*packed); !appended) return appended;
+    if (Status appended = archive.append(leaves_, {.offset = 0, .length = leaves_.size()}); !appended) return appended;
     const auto head = pmtiles_header_bytes(header_);
-    for (const std::span<const std::byte> part :
-         {std::span<const std::byte>(head), std::span(root), std::span(*packed)}) {
-      if (Status appended = archive_.append(part); !appended) return appended;
-    }
-    if (Status appended = archive_.append(leaves_, {.offset = 0, .length = leaves_.size()}); !appended) return appended;
-    return copy_contents();
+    if (Status put = archive.write_at(0, head); !put) return put;
+    return archive.write_at(kPmtilesHeaderBytes, root);
   }
 
-  /// Copies each content at its first run. Contents that arrived one after the other are one copy.
-  [[nodiscard]] Status copy_contents() {
+  /// Copies each content at its first run, if they are not in order. Contents that arrived one after the other are one
+  /// copy.
+  [[nodiscard]] Status sort_contents() {
+    if (in_order_) return Done{};
+    if (Status opened = open_with_gap(sorted_); !opened) return opened;
     ByteRange next;
     std::int64_t place = 0;
     const Status listed =
         for_each_row("SELECT place, length, start FROM runs ORDER BY tile", [&](const SqliteStatement& row) -> Status {
           if (row.integer(0) < place) return Done{};
+          const auto length = static_cast<std::uint64_t>(row.integer(1));
+          const auto start = static_cast<std::uint64_t>(row.integer(2));
           place += row.integer(1);
-          const auto start = static_cast<std::uint64_t>(row.integer(2)),
-                     length = static_cast<std::uint64_t>(row.integer(1));
           if (next.offset + next.length == start) {
             next.length += length;
             return Done{};
           }
-          return archive_.append(contents_, std::exchange(next, ByteRange{.offset = start, .length = length}));
+          return sorted_.append(contents_, std::exchange(next, ByteRange{.offset = start, .length = length}));
         });
-    return listed ? archive_.append(contents_, next) : listed;
+    return listed ? sorted_.append(contents_, next) : listed;
   }
 
   const WriterSetup setup_;
@@ -314,7 +329,10 @@ class PmtilesWriter : public TileWriter {
   const int zoom_of_roots_;
   ZoomRange zooms_;
   PmtilesHeader header_;
-  PartFile contents_, leaves_, archive_;
+  PartFile contents_, sorted_, leaves_;
+  bool in_order_ = true;           ///< tile numbers have ascended so far
+  std::uint64_t next_number_ = 0;  ///< the smallest that goes on in order
+  std::int64_t free_place_ = 0;
   std::optional<SqliteWriter> scratch_;
   std::optional<Statements> sql_;
 };

@@ -119,7 +119,8 @@ def contents(data):
     fields = struct.unpack_from(HEADER, data)
     assert fields[0] == b"PMTiles" and fields[1] == 3 and fields[14:16] == (GZIP, NONE), fields
     root, metadata, leaves, tiles = ((fields[i], fields[i] + fields[i + 1]) for i in (2, 4, 6, 8))
-    assert root[0] == 127 and root[1] <= 16384 and tiles[1] == len(data), fields
+    assert root[0] == 127 and root[1] <= tiles[0] == 16384 and tiles[1] == metadata[0] and metadata[1] == leaves[0], fields
+    assert leaves[1] == len(data), fields
 
     def entries_of(packed):
         for entry in parsed_directory(gzip.decompress(packed)):
