@@ -61,7 +61,7 @@ class Conversion {
     auto* const lister = dynamic_cast<TileLister*>(source_.get());
     if (lister == nullptr) return Error{options_.from.string() + ": its tiles cannot be listed"};
     Status added = Done{};
-    const Status listed = lister->for_each_tile([&](const TileId& id) {
+    Status listed = lister->for_each_tile([&](const TileId& id) {
       added = written(claim_.output, order.add(id));
       if (added && !goes_on(0, 1)) added = Error{kStopped};
       return added.ok();

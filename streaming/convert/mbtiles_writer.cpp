@@ -81,11 +81,13 @@ class MbtilesWriter : public TileWriter {
         {"minzoom", std::to_string(zooms_.least)},
         {"maxzoom", std::to_string(zooms_.most)},
         {"attribution", info.attribution},
+        {"body", info.body},
         {"type", layer_type(info)},
         {"scheme", "tms"},
         {kCutKeyField, setup_.mark},
     };
     for (const auto& [name, value] : rows) {
+      if (value.empty()) continue;
       if (WriteStatus done = database_->run({"INSERT INTO metadata VALUES (?1, ?2)", {name, value}}); !done)
         return done;
     }

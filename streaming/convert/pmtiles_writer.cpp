@@ -272,10 +272,11 @@ class PmtilesWriter : public TileWriter {
 
   [[nodiscard]] std::string metadata() const {
     const TileSetInfo& info = setup_.info;
-    const nlohmann::ordered_json object{{"name", info.name.empty() ? setup_.output.stem().string() : info.name},
-                                        {"attribution", info.attribution},
-                                        {"type", layer_type(info)},
-                                        {kCutKeyField, setup_.mark}};
+    nlohmann::ordered_json object{{"name", info.name.empty() ? setup_.output.stem().string() : info.name},
+                                  {"attribution", info.attribution},
+                                  {"type", layer_type(info)},
+                                  {kCutKeyField, setup_.mark}};
+    if (!info.body.empty()) object["body"] = info.body;
     return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   }
 

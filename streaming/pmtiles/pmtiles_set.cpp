@@ -7,6 +7,7 @@
 #include "codecs/image.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
+#include "streaming/sets/tileset_json.h"
 #include "tiles/grid_ranges.h"
 
 namespace terrella {
@@ -34,6 +35,7 @@ Status read_archive_metadata(const ReadBytes& read, const PmtilesHeader& header,
   if (!object) return object.error();
   info.name = metadata_text(*object, "name");
   info.attribution = metadata_text(*object, "attribution");
+  info.body = stated_body(metadata_text(*object, "body"));
   return Done{};
 }
 

@@ -38,6 +38,9 @@ inline constexpr std::size_t kMaxTileSetJsonBytes = 1UL << 20;
 /// allowed values. Unknown fields are ignored. thread: any
 [[nodiscard]] Result<TileSetInfo> parse_tileset_json(std::string_view text, const std::string& where);
 
+/// A body that the metadata of MBTiles or PMTiles state; empty if it is none that is known. thread: any
+[[nodiscard]] std::string stated_body(std::string text);
+
 /// Ending of the files of tiles in a folder: "jpg", "png", "webp", or "tif" for floats. thread: any
 [[nodiscard]] const char* tile_ending(const TileSetInfo& info);
 

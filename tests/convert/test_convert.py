@@ -12,13 +12,14 @@ import unittest
 
 import pmtiles
 from pictures import TILE_PX, png, square_tile
-from program import DONE, FAILED, NATURAL_EARTH, PROGRAM, ProgramTest
+from program import DONE, FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE, ProgramTest
 
 LEVELS = 4
 KINDS = ("tiles", "set.gpkg", "set.mbtiles", "set.pmtiles")
+FIELDS = ("name", "attribution", "body")  # what each format keeps
 ONE_COLOUR = png(TILE_PX, TILE_PX)
 INFO = {"version": 1, "name": "Of the \"test\"", "attribution": "nobody \u2013 © 2026", "projection": "web-mercator",
-        "tile_px": TILE_PX, "min_level": 0, "max_level": LEVELS - 1, "format": "png",
+        "tile_px": TILE_PX, "min_level": 0, "max_level": LEVELS - 1, "format": "png", "body": "moon",
         "bounds": [-180, -85.05112877980659, 180, 85.05112877980659]}
 
 
@@ -84,7 +85,7 @@ class Convert(ProgramTest):
                     self.assert_done("convert", name, again, "--force")
                     self.assertEqual(tiles_of(self.folder / again), planet())
                     said = self.info(again)
-                    self.assertEqual((said["name"], said["attribution"]), (INFO["name"], INFO["attribution"]))
+                    self.assertEqual([said[field] for field in FIELDS], [INFO[field] for field in FIELDS])
                     self.assert_done("info", again, "--verify")
 
     def test_an_mbtiles_file_keeps_its_rules(self):
@@ -97,7 +98,7 @@ class Convert(ProgramTest):
         self.assertAlmostEqual(north, 85.05112877980659, 9)
         self.assertEqual(said.pop("center"), "0,0,0")
         self.assertTrue(said.pop("cut_key"))
-        self.assertEqual(said, {"name": INFO["name"], "attribution": INFO["attribution"], "format": "png", "minzoom": "0",
+        self.assertEqual(said, {field: INFO[field] for field in FIELDS} | {"format": "png", "minzoom": "0",
                                 "maxzoom": str(LEVELS - 1), "type": "overlay", "scheme": "tms"})
         self.assertEqual(rows(path, "PRAGMA application_id"), [(0x4D504258,)])
         self.assertEqual(rows(path, "PRAGMA integrity_check"), [("ok",)])
@@ -123,7 +124,7 @@ class Convert(ProgramTest):
         self.assertLess(fields[11], fields[10], "neighbours are a run")
         self.assertEqual(fields[12], len(set(planet().values())), "equal tiles are stored once")
         said = json.loads(metadata)
-        self.assertEqual((said["name"], said["attribution"]), (INFO["name"], INFO["attribution"]))
+        self.assertEqual([said[field] for field in FIELDS], [INFO[field] for field in FIELDS])
 
     def test_what_a_format_cannot_hold_is_refused_with_a_cure(self):
         write_folder(self.folder / "heights", planet(), {"elevation": {"scale": 1, "offset": 0}})
@@ -133,6 +134,8 @@ class Convert(ProgramTest):
         self.assert_fails(FAILED, "cut", self.write("planet.png", png(128, 64)), "-o", "cut.pmtiles",
                           says=["cut.pmtiles", "Web Mercator", ".gpkg"])
         self.assert_nothing_but("heights", "planet.png", "source")
+        for command in ("merge", "a.gpkg"), ("preload", "http://127.0.0.1:1/{z}/{x}/{y}.png", "--levels", "0-1"):
+            self.assert_fails(WRONG_USAGE, *command, "-o", "cache.pmtiles", says=["-o", "cache.pmtiles", "terrella convert"])
 
     def test_grids_and_heights_are_kept_by_geopackages_and_folders(self):
         self.write("planet.png", png(256, 128))
