@@ -155,6 +155,26 @@ class Convert(ProgramTest):
         self.assertEqual(self.info("heights.gpkg")["elevation"], self.info("heights")["elevation"])
         self.assertEqual(tiles_of(self.folder / "heights.gpkg"), planet())
 
+    def test_tiles_with_a_scale_of_their_own_are_refused(self):
+        write_folder(self.folder / "heights", planet(), {"elevation": {"scale": 2, "offset": 5}})
+        self.assert_done("convert", "heights", "heights.gpkg")
+        self.assert_done("convert", "heights.gpkg", "again")
+        self.assertEqual(self.info("again")["elevation"], self.info("heights")["elevation"])
+        with sqlite3.connect(self.folder / "heights.gpkg") as base:
+            base.execute("UPDATE gpkg_2d_gridded_tile_ancillary SET scale = 2 WHERE id = 7")
+        base.close()
+        self.assert_fails(FAILED, "convert", "heights.gpkg", "out", says=["heights.gpkg", "level", "scale", "copy the file"])
+        self.assert_nothing_but("again", "heights", "heights.gpkg", "source")
+
+    def test_empty_tiles_are_left_out_and_counted(self):
+        self.write("source/2/1/1.png", b"")
+        for name in KINDS:
+            done = self.assert_done("convert", "source", name, "--json")
+            said = json.loads(done.stdout)
+            self.assertEqual((said["tiles"], said["blank"]), (len(planet()) - 1, 1))
+            self.assertIn(f"converting into {name}: 100 %", done.stderr)
+            self.assertEqual(tiles_of(self.folder / name), {tile: data for tile, data in planet().items() if tile != (2, 1, 1)})
+
     def test_other_things_are_named(self):
         self.write("notes.txt", b"to do: nothing")
         for source, says in ("notes.txt", "tile set"), ("nowhere.gpkg", "no such"), (".", "tileset.json"):
