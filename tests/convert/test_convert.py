@@ -16,7 +16,7 @@ from program import DONE, FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE, ProgramTe
 
 LEVELS = 4
 KINDS = ("tiles", "set.gpkg", "set.mbtiles", "set.pmtiles")
-FIELDS = ("name", "attribution", "body")  # what each format keeps
+FIELDS = ("name", "attribution", "body")  # kept by each format
 ONE_COLOUR = png(TILE_PX, TILE_PX)
 INFO = {"version": 1, "name": "Of the \"test\"", "attribution": "nobody \u2013 © 2026", "projection": "web-mercator",
         "tile_px": TILE_PX, "min_level": 0, "max_level": LEVELS - 1, "format": "png", "body": "moon",
