@@ -63,6 +63,7 @@ struct PmtilesEntry {
   std::uint64_t offset = 0;
   std::uint32_t length = 0;  ///< ≥ 1
   std::uint32_t run = 0;
+  bool operator==(const PmtilesEntry&) const = default;
 };
 /// In ascending order of tiles; runs do not overlap. Never empty.
 using PmtilesDirectory = std::vector<PmtilesEntry>;
