@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/open_scene/options/option_checks.h"
 #include "apps/process/console.h"
 #include "apps/process/progress.h"
 #include "apps/process/stop_signals.h"
@@ -77,6 +78,7 @@ void add_merge_command(CLI::App& app, int& exit_code) {
       ->add_option("-o,--output", options->output,
                    "Write this cache; an existing file is replaced only if it is one of the inputs")
       ->required()
+      ->check(cache_name())
       ->type_name("OUT.gpkg");
   command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_merge(*options); });

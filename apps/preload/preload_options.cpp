@@ -123,6 +123,7 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
       ->required();
   app.add_option("-o,--output", command.output, "Write tiles to this cache; an existing cache is extended")
       ->required()
+      ->check(cache_name())
       ->type_name("CACHE.gpkg");
   add_area_options(app, command);
   add_remote_set_options(app, command.remote);

@@ -14,6 +14,7 @@ enum ExitCode : int { kDone = 0, kFailed = 1, kWrongUsage = 2, kDoneInPart = 3 }
 /// Adds a subcommand to the program. A named subcommand runs at the end of the parse and stores its exit code in
 /// `exit_code`, which must outlive the parse. Throws CLI::ParseError on a wrong command line. thread: main
 void add_bench_command(CLI::App& app, int& exit_code);
+void add_convert_command(CLI::App& app, int& exit_code);
 void add_cut_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_merge_command(CLI::App& app, int& exit_code);

@@ -6,7 +6,7 @@
 
 namespace terrella {
 
-/// Adds render, cut, preload, info and merge. thread: that of Python
+/// Adds render, cut, preload, info, merge and convert. thread: that of Python
 void add_commands(pybind11::module_& module);
 
 /// Adds the class Globe. thread: that of Python

@@ -83,6 +83,7 @@ void add_commands(py::module_& module) {
   add_function<&add_preload_command>(module, "preload");
   add_function<&add_info_command>(module, "info");
   add_function<&add_merge_command>(module, "merge");
+  add_function<&add_convert_command>(module, "convert");
 }
 
 }  // namespace terrella

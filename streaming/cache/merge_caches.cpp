@@ -5,8 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <optional>
 #include <string>
@@ -83,13 +81,7 @@ class MergedFile {
   MergedFile(const MergedFile&) = delete;
   MergedFile& operator=(const MergedFile&) = delete;
 
-  [[nodiscard]] Status begin(const CacheReport& first) {
-    remove_database(part_);
-    const int file = open(part_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0) return Error{fmt::format("{}: cannot be written: {}", output_.string(), std::strerror(errno))};
-    close(file);
-    return status(write_head(first));
-  }
+  [[nodiscard]] Status begin(const CacheReport& first) { return status(write_head(first)); }
 
   [[nodiscard]] WriteStatus add(const Row& row, MergeSummary& summary) {
     const WriteResult<CacheRows::Known> known = rows_->known(row.id);
@@ -129,17 +121,13 @@ class MergedFile {
   }
 
  private:
-  /// No journal: no other process knows the file, and a broken one is deleted. The pages of the indexes of some
-  /// millions of tiles stay in memory, because last uses come in no order.
+  /// The pages of the indexes of some millions of tiles stay in memory, because last uses come in no order.
   WriteStatus write_head(const CacheReport& first) {
-    WriteResult<SqliteWriter> database = SqliteWriter::open(part_, SqliteWriter::Mode::existing);
+    WriteResult<SqliteWriter> database = SqliteWriter::make_private(part_);
     if (!database) return database.error();
     database_ = *std::move(database);
     if (WriteStatus done = write_cache_schema(*database_, first.info, first.source_key); !done) return done;
-    for (const char* pragma :
-         {"PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "PRAGMA cache_size = -65536", "BEGIN"}) {
-      if (WriteStatus done = database_->run(pragma); !done) return done;
-    }
+    if (WriteStatus done = database_->run("BEGIN"); !done) return done;
     WriteResult<CacheRows> rows = CacheRows::prepare(*database_, first.info.grid.min_level);
     if (!rows) return rows.error();
     rows_ = *std::move(rows);

@@ -1,7 +1,9 @@
 #include "streaming/cache/sqlite_writer.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -141,6 +143,21 @@ WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, 
   errno = 0;
   if (const int code = distrust(database); code != SQLITE_OK) return error_of(database, code, errno);
   return writer;
+}
+
+WriteResult<SqliteWriter> SqliteWriter::make_private(const std::filesystem::path& path) {
+  remove_database(path);
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return error_of(nullptr, SQLITE_IOERR, errno);
+  close(file);
+  WriteResult<SqliteWriter> made = open(path, Mode::existing);
+  // SQLite counts the pages of the cache by the size that they have then.
+  for (const char* pragma : {"PRAGMA page_size = 8192", "PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF",
+                             "PRAGMA cache_size = -65536"}) {
+    if (!made) break;
+    if (WriteStatus done = made->run(pragma); !done) return done.error();
+  }
+  return made;
 }
 
 WriteResult<SqliteStatement> SqliteWriter::prepare(std::string_view sql) {

@@ -77,6 +77,10 @@ class SqliteWriter {
   [[nodiscard]] static WriteResult<SqliteWriter> open(const std::filesystem::path& path, Mode mode,
                                                       std::function<void()> on_long_wait = {});
 
+  /// Makes a file that no other process knows: without a journal, because a broken one is deleted, and with 64 MiB of
+  /// pages in memory. Removes an existing file of that name.
+  [[nodiscard]] static WriteResult<SqliteWriter> make_private(const std::filesystem::path& path);
+
   [[nodiscard]] WriteResult<SqliteStatement> prepare(std::string_view sql);
   [[nodiscard]] WriteStatus run(std::string_view sql);
   [[nodiscard]] WriteStatus run(const SqlStatement& said);

@@ -191,6 +191,7 @@ Result<Job> prepare(const CutOptions& options) {
   input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
   if (options.watch) input->rows = watched_rows(std::move(input->rows), options);
   TileSetInfo info = describe(options, *plan, *input);
+  if (Status fits = check_output(claim->output, info); !fits) return fits.error();
   return Job{options, *std::move(claim), *std::move(input), *plan, std::move(info), *key};
 }
 

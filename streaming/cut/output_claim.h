@@ -8,20 +8,20 @@
 
 namespace terrella {
 
-/// A cut that wants to write an output name, which may be in use.
+/// A cut or a conversion that wants to write an output name, which may be in use.
 struct OutputClaim {
   std::filesystem::path output;
-  std::vector<std::filesystem::path> images;
-  std::string mark;    ///< cut_mark()
-  bool force = false;  ///< CutOptions::force
+  std::vector<std::filesystem::path> images;  ///< inputs: pictures of a cut, the set of a conversion
+  std::string mark;                           ///< cut_mark()
+  bool force = false;                         ///< CutOptions::force
 };
 
-/// Decides if the cut may replace `there`, which has, or had a moment ago, the output's name. Follows links.
+/// Decides if the claim may replace `there`, which has, or had a moment ago, the output's name. Follows links.
 /// thread: any
-/// - May be replaced: nothing, an empty file, an empty folder, an earlier output of `cut` with the same mark, and by
-///   force one with another mark.
-/// - Must stay: everything else, such as a cache, a picture of this cut, or a GeoPackage or folder with content that
-///   `cut` did not write. The error says what `there` is and what to do.
+/// - May be replaced: nothing, an empty file, an empty folder, an earlier output with the same mark, and by force one
+///   with another mark.
+/// - Must stay: everything else, such as a cache, an input of this claim, or a file or folder with content that
+///   neither `cut` nor `convert` wrote. The error says what `there` is and what to do.
 [[nodiscard]] Status may_replace(const OutputClaim& claim, const std::filesystem::path& there);
 
 }  // namespace terrella

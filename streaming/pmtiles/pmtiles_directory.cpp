@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "streaming/pmtiles/pmtiles_format.h"
 
@@ -43,6 +45,11 @@ class VarintReader {
   const char* fault_ = nullptr;
 };
 
+void append_number(std::vector<std::byte>& bytes, std::uint64_t number) {
+  for (; number >= 0x80; number >>= 7) bytes.push_back(static_cast<std::byte>((number & 0x7F) | 0x80));
+  bytes.push_back(static_cast<std::byte>(number));
+}
+
 constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 /// Highest tile number and offset. Sums of a few of them do not overflow.
 constexpr std::uint64_t kMostNumber = std::uint64_t{1} << 62;
@@ -78,10 +85,12 @@ void check_entries(VarintReader& numbers, const PmtilesDirectory& directory) {
   }
 }
 
+/// zlib's code for gzip alone, with the largest window.
+constexpr int kGzipWindow = 16 + MAX_WBITS;
+
 Result<std::vector<std::byte>> gunzip(std::span<const std::byte> bytes, std::size_t max_bytes) {
-  constexpr int kGzipOnly = 16 + MAX_WBITS;
   z_stream stream{};
-  if (inflateInit2(&stream, kGzipOnly) != Z_OK) return Error{"gzip: out of memory"};
+  if (inflateInit2(&stream, kGzipWindow) != Z_OK) return Error{"gzip: out of memory"};
   stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
   std::vector<std::byte> out;
@@ -125,6 +134,41 @@ Result<PmtilesDirectory> parse_pmtiles_directory(std::span<const std::byte> byte
   if (numbers.fault() == nullptr) check_entries(numbers, directory);
   if (numbers.fault() != nullptr) return Error{fmt::format("a directory is damaged: {}", numbers.fault())};
   return directory;
+}
+
+std::vector<std::byte> pmtiles_directory_bytes(const PmtilesDirectory& directory) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(8 * directory.size() + 16);
+  append_number(bytes, directory.size());
+  std::uint64_t tile = 0;
+  for (const PmtilesEntry& entry : directory) append_number(bytes, entry.tile - std::exchange(tile, entry.tile));
+  for (const PmtilesEntry& entry : directory) append_number(bytes, entry.run);
+  for (const PmtilesEntry& entry : directory) append_number(bytes, entry.length);
+  std::optional<std::uint64_t> end;
+  for (const PmtilesEntry& entry : directory) {
+    append_number(bytes, entry.offset == end ? 0 : entry.offset + 1);
+    end = entry.offset + entry.length;
+  }
+  return bytes;
+}
+
+Result<std::vector<std::byte>> pack(std::span<const std::byte> bytes) {
+  constexpr int kMemory = 9;
+  z_stream stream{};
+  const Error no_memory{"gzip: out of memory"};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
+    return no_memory;
+  }
+  std::vector<std::byte> out(deflateBound(&stream, static_cast<uLong>(bytes.size())));
+  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  const int code = deflate(&stream, Z_FINISH);
+  out.resize(out.size() - stream.avail_out);
+  deflateEnd(&stream);
+  if (code != Z_STREAM_END) return no_memory;
+  return out;
 }
 
 const PmtilesEntry* find_entry(const PmtilesDirectory& directory, std::uint64_t tile) {

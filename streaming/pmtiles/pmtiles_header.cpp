@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
 #include "streaming/pmtiles/pmtiles_format.h"
+#include "streaming/sets/tileset_json.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
@@ -13,6 +15,31 @@ namespace {
 
 constexpr int kPmtilesVersion = 3;
 constexpr std::string_view kMagic = "PMTiles";
+
+/// Fields of the header, by their first byte. Numbers have their lowest byte first.
+enum HeaderField : std::size_t {
+  kVersionAt = 7,
+  kRootAt = 8,  // sections: offset and length, 8 bytes each
+  kMetadataAt = 24,
+  kLeavesAt = 40,
+  kTilesAt = 56,
+  kAddressedTilesAt = 72,  // 8 bytes
+  kTileEntriesAt = 80,
+  kTileContentsAt = 88,
+  kClusteredAt = 96,  // 1 byte
+  kDirectoryCompressionAt = 97,
+  kTileCompressionAt = 98,
+  kTileTypeAt = 99,
+  kMinLevelAt = 100,
+  kMaxLevelAt = 101,
+  kWestAt = 102,  // 4 bytes with a sign, 1e-7 degrees
+  kSouthAt = 106,
+  kEastAt = 110,
+  kNorthAt = 114,
+  kCentreLevelAt = 118,  // 1 byte
+  kCentreLonAt = 119,    // 4 bytes
+  kCentreLatAt = 123,
+};
 
 std::uint64_t number_at(std::span<const std::byte> head, std::size_t at, std::size_t bytes) {
   std::uint64_t number = 0;
@@ -67,8 +94,8 @@ Status check_sections(const PmtilesHeader& header, std::optional<std::uint64_t> 
 }
 
 GeoRect bounds_at(std::span<const std::byte> head) {
-  const double west = degrees_at(head, 102), south = degrees_at(head, 106);
-  const double east = degrees_at(head, 110), north = degrees_at(head, 114);
+  const double west = degrees_at(head, kWestAt), south = degrees_at(head, kSouthAt);
+  const double east = degrees_at(head, kEastAt), north = degrees_at(head, kNorthAt);
   if (!(west < east && south < north)) return {};
   return {.west = Angle::degrees(std::clamp(west, -180.0, 180.0)),
           .south = Angle::degrees(std::clamp(south, -90.0, 90.0)),
@@ -90,33 +117,83 @@ bool begins_as_pmtiles(std::span<const std::byte> head) {
 
 Result<PmtilesHeader> parse_pmtiles_header(std::span<const std::byte> head, std::optional<std::uint64_t> file_bytes) {
   if (!begins_as_pmtiles(head)) return Error{"it does not begin as a PMTiles archive"};
-  const auto version =
-      std::to_integer<int>(head[begins_with_text(head, kMagic) ? std::min<std::size_t>(7, head.size() - 1) : 2]);
+  const auto version = std::to_integer<int>(
+      head[begins_with_text(head, kMagic) ? std::min<std::size_t>(kVersionAt, head.size() - 1) : 2]);
   if (head.size() > kMagic.size() && version != kPmtilesVersion) {
     return Error{fmt::format("it is PMTiles version {}, version {} can be read; convert it: pmtiles convert", version,
                              kPmtilesVersion)};
   }
   if (head.size() < kPmtilesHeaderBytes) return Error{"it ends within its header; it is truncated, get it again"};
-  if (Status type = check_tile_type(number_at(head, 99, 1)); !type) return type.error();
-  const auto directories = compression_at(head, 97, "directories");
+  const std::uint64_t type = number_at(head, kTileTypeAt, 1);
+  if (Status known = check_tile_type(type); !known) return known.error();
+  const auto directories = compression_at(head, kDirectoryCompressionAt, "directories");
   if (!directories) return directories.error();
-  const auto tiles = compression_at(head, 98, "tiles");
+  const auto tiles = compression_at(head, kTileCompressionAt, "tiles");
   if (!tiles) return tiles.error();
-  PmtilesHeader header{.root = range_at(head, 8),
-                       .metadata = range_at(head, 24),
-                       .leaves = range_at(head, 40),
-                       .tiles = range_at(head, 56),
+  PmtilesHeader header{.root = range_at(head, kRootAt),
+                       .metadata = range_at(head, kMetadataAt),
+                       .leaves = range_at(head, kLeavesAt),
+                       .tiles = range_at(head, kTilesAt),
                        .directory_compression = *directories,
                        .tile_compression = *tiles,
-                       .min_level = static_cast<int>(number_at(head, 100, 1)),
-                       .max_level = static_cast<int>(number_at(head, 101, 1)),
-                       .bounds = bounds_at(head)};
+                       .min_level = static_cast<int>(number_at(head, kMinLevelAt, 1)),
+                       .max_level = static_cast<int>(number_at(head, kMaxLevelAt, 1)),
+                       .bounds = bounds_at(head),
+                       .tile_type = static_cast<PmtilesTileType>(type),
+                       .clustered = number_at(head, kClusteredAt, 1) == 1,
+                       .addressed_tiles = number_at(head, kAddressedTilesAt, 8),
+                       .tile_entries = number_at(head, kTileEntriesAt, 8),
+                       .tile_contents = number_at(head, kTileContentsAt, 8)};
   if (header.min_level > header.max_level || header.max_level > kMaxTileLevel) {
     return Error{
         fmt::format("its levels are {} to {}, [0, {}] can be read", header.min_level, header.max_level, kMaxTileLevel)};
   }
   if (Status sections = check_sections(header, file_bytes); !sections) return sections.error();
   return header;
+}
+
+std::array<std::byte, kPmtilesHeaderBytes> pmtiles_header_bytes(const PmtilesHeader& header) {
+  std::array<std::byte, kPmtilesHeaderBytes> head{};
+  const auto put = [&head](std::size_t at, std::size_t bytes, std::uint64_t number) {
+    for (std::size_t i = 0; i < bytes; ++i) head.at(at + i) = static_cast<std::byte>(number >> (8 * i));
+  };
+  const auto put_range = [&put](std::size_t at, const ByteRange& range) {
+    put(at, 8, range.offset);
+    put(at + 8, 8, range.length);
+  };
+  const auto put_degrees = [&put](std::size_t at, double steps) {
+    put(at, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(steps)));
+  };
+  std::memcpy(head.data(), kMagic.data(), kMagic.size());
+  put(kVersionAt, 1, kPmtilesVersion);
+  put_range(kRootAt, header.root);
+  put_range(kMetadataAt, header.metadata);
+  put_range(kLeavesAt, header.leaves);
+  put_range(kTilesAt, header.tiles);
+  put(kAddressedTilesAt, 8, header.addressed_tiles);
+  put(kTileEntriesAt, 8, header.tile_entries);
+  put(kTileContentsAt, 8, header.tile_contents);
+  put(kClusteredAt, 1, header.clustered ? 1 : 0);
+  put(kDirectoryCompressionAt, 1, static_cast<std::uint64_t>(header.directory_compression));
+  put(kTileCompressionAt, 1, static_cast<std::uint64_t>(header.tile_compression));
+  put(kTileTypeAt, 1, static_cast<std::uint64_t>(header.tile_type));
+  put(kMinLevelAt, 1, static_cast<std::uint64_t>(header.min_level));
+  put(kMaxLevelAt, 1, static_cast<std::uint64_t>(header.max_level));
+  constexpr double kRounding = 1e-5;  // more than the error of a double, less than a pixel of any level
+  const auto steps_of = [](Angle angle) { return tidy_degrees(angle) * 1e7; };
+  const bool crosses = header.bounds.east.rad() <= header.bounds.west.rad();
+  const double west = std::floor(crosses ? -180e7 : steps_of(header.bounds.west) + kRounding);
+  const double east = std::ceil(crosses ? 180e7 : steps_of(header.bounds.east) - kRounding);
+  const double south = std::floor(steps_of(header.bounds.south) + kRounding);
+  const double north = std::ceil(steps_of(header.bounds.north) - kRounding);
+  put_degrees(kWestAt, west);
+  put_degrees(kSouthAt, south);
+  put_degrees(kEastAt, east);
+  put_degrees(kNorthAt, north);
+  put(kCentreLevelAt, 1, static_cast<std::uint64_t>(header.min_level));
+  put_degrees(kCentreLonAt, std::round((west + east) / 2.0));
+  put_degrees(kCentreLatAt, std::round((south + north) / 2.0));
+  return head;
 }
 
 }  // namespace terrella

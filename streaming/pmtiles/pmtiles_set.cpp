@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "codecs/image.h"
+#include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
+#include "streaming/sets/tileset_json.h"
 #include "tiles/grid_ranges.h"
 
 namespace terrella {
@@ -26,16 +28,14 @@ std::string metadata_text(const nlohmann::json& object, const char* field) {
 }
 
 Status read_archive_metadata(const ReadBytes& read, const PmtilesHeader& header, TileSetInfo& info) {
-  if (header.metadata.length == 0) return Done{};
-  const auto packed = read_whole(read, header.metadata);
-  if (!packed) return packed.error();
-  const auto bytes = unpack(*packed, header.directory_compression);
-  if (!bytes) return Error{"its metadata: " + bytes.error().message};
-  const auto object = parse_json_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()},
-                                        kMaxUnpackedBytes, "its metadata");
+  const auto text = read_pmtiles_metadata(read, header);
+  if (!text) return text.error();
+  if (text->empty()) return Done{};
+  const auto object = parse_json_object(*text, kMaxUnpackedBytes, "its metadata");
   if (!object) return object.error();
   info.name = metadata_text(*object, "name");
   info.attribution = metadata_text(*object, "attribution");
+  info.body = stated_body(metadata_text(*object, "body"));
   return Done{};
 }
 
@@ -93,6 +93,15 @@ Result<PmtilesSet> describe_archive(const ReadBytes& read,
 }
 
 }  // namespace
+
+Result<std::string> read_pmtiles_metadata(const ReadBytes& read, const PmtilesHeader& header) {
+  if (header.metadata.length == 0) return std::string();
+  const auto packed = read_whole(read, header.metadata);
+  if (!packed) return packed.error();
+  const auto bytes = unpack(*packed, header.directory_compression);
+  if (!bytes) return Error{"its metadata: " + bytes.error().message};
+  return std::string(as_text(*bytes));
+}
 
 Result<PmtilesSet> describe_pmtiles(const ReadBytes& read,
                                     const std::function<std::optional<std::uint64_t>()>& file_bytes,

@@ -27,6 +27,11 @@ struct PmtilesSet {
                                                   const std::function<std::optional<std::uint64_t>()>& file_bytes,
                                                   const std::string& where);
 
+/// Reads the metadata, a JSON object by the specification, as text; empty if there are none. The error does not name
+/// the file. thread: any
+[[nodiscard]] Result<std::string> read_pmtiles_metadata(const ReadBytes& read, const PmtilesHeader& header);
+[[nodiscard]] Result<std::string> read_pmtiles_metadata(const std::filesystem::path& path);
+
 /// Opens an archive on disk. thread: any
 [[nodiscard]] Result<std::unique_ptr<TileSource>> open_pmtiles(const std::filesystem::path& path);
 

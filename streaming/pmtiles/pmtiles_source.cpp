@@ -160,6 +160,16 @@ class PmtilesSource : public TileSource, public TileLister {
 
 }  // namespace
 
+Result<std::string> read_pmtiles_metadata(const std::filesystem::path& path) {
+  const OpenFile file(path);
+  if (!file.is_open()) return Error{std::strerror(errno)};
+  const auto head = file.read({.offset = 0, .length = kPmtilesHeaderBytes});
+  if (!head) return head.error();
+  const auto header = parse_pmtiles_header(*head, file.size());
+  if (!header) return header.error();
+  return read_pmtiles_metadata([&](const ByteRange& range) { return file.read(range); }, *header);
+}
+
 Result<std::unique_ptr<TileSource>> open_pmtiles(const std::filesystem::path& path) {
   const std::string name = path.string();
   auto file = std::make_shared<OpenFile>(path);

@@ -144,10 +144,9 @@ SqlStatement tile_matrix_row(const TileSetInfo& info, int level) {
                       size.pixel}};
 }
 
-namespace {
-
-/// The extension knows no two's complement numbers. Other programs see gray pictures of them.
 bool is_coverage(const TileSetInfo& info) { return info.numbers && !info.numbers->is_signed && !info.numbers->rgb; }
+
+namespace {
 
 /// True if the levels have other corners, for which a GeoPackage has no place.
 bool has_moving_corners(const TileSetInfo& info) {

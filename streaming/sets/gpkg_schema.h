@@ -22,6 +22,10 @@ inline constexpr int kSrsWebMercator = 3857;
 /// Length of a degree of longitude in EPSG:3857, metres.
 inline constexpr double kMercatorDegree_m = 6378137.0 * 3.14159265358979323846 / 180.0;
 
+/// True if the tiles of the set are a gridded coverage, whose tiles have rows in a side table. The extension knows no
+/// two's complement numbers; other programs see gray pictures of them.
+[[nodiscard]] bool is_coverage(const TileSetInfo& info);
+
 /// Statement that creates a tile table of this name (OGC 12-128r18, table 21).
 [[nodiscard]] std::string tile_table_sql(const std::string& name);
 

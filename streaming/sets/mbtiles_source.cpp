@@ -13,6 +13,7 @@
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/directory_source.h"
 #include "streaming/sets/sqlite_tiles.h"
+#include "streaming/sets/tileset_json.h"
 #include "streaming/tile_lister.h"
 #include "tiles/grid_ranges.h"
 
@@ -290,6 +291,7 @@ Result<std::unique_ptr<TileSource>> open_mbtiles(const std::filesystem::path& pa
   TileSetInfo info;
   info.name = value_of(*metadata, "name");
   info.attribution = value_of(*metadata, "attribution");
+  info.body = stated_body(value_of(*metadata, "body"));
   info.grid.bounds = bounds_of(value_of(*metadata, "bounds"));
   if (Status looked = look_at_tile(*reader, info, where); !looked) return looked.error();
   if (Status levels = read_levels(*reader, *metadata, info.grid, where); !levels) return levels.error();

@@ -22,7 +22,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kVersion = 1;
-constexpr const char* kCutKeyField = "cut_key";
 /// Format of tiles of floats.
 constexpr const char* kTiffEnding = "tif";
 
@@ -171,6 +170,8 @@ std::string to_tileset_json(const TileSetInfo& info, const std::string& cut_key)
   if (!cut_key.empty()) object[kCutKeyField] = cut_key;
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
+
+std::string stated_body(std::string text) { return parse_body(text) ? text : std::string(); }
 
 const char* tile_ending(const TileSetInfo& info) {
   return info.numbers && info.numbers->floats ? kTiffEnding : extension_of(info.format);

@@ -116,7 +116,7 @@ TEST_F(Output, FolderIsMissing) {
 }
 
 TEST_F(Output, SomethingElseIsThere) {
-  expect_not_written(picture_, "is the picture");
+  expect_not_written(picture_, "is the input");
   write_bytes(folder_ / "file", {});
   expect_not_written(folder_ / "file", "is a file");
   fs::create_directory(folder_ / "out.gpkg");

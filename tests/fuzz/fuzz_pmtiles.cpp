@@ -40,6 +40,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 1; i < directory->size(); ++i) {
       if ((*directory)[i].tile < (*directory)[i - 1].tile + (*directory)[i - 1].run) std::abort();
     }
+    const auto again = parse_pmtiles_directory(pmtiles_directory_bytes(*directory));
+    if (!again || !std::ranges::equal(*again, *directory)) std::abort();
   }
   return 0;
 }

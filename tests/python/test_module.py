@@ -108,12 +108,13 @@ class Commands(ModuleTest):
         self.assertEqual(info["name"], "A planet")
         self.assertEqual(info, terrella.info(str(tiles), verify=True))
 
-    def test_preload_and_merge(self):
+    def test_preload_merge_and_convert(self):
         address = serve(self, NATURAL_EARTH)
         done = terrella.preload(address + "/{z}/{x}/{-y}.jpg", output=self.folder / "a.gpkg", levels=(0, 1), header=["X-A: 1"])
         self.assertEqual(done["stored"], 10)
         merged = terrella.merge([self.folder / "a.gpkg", self.folder / "a.gpkg"], output=self.folder / "b.gpkg")
         self.assertEqual(merged["tiles"], 10)
+        self.assertEqual(terrella.convert(self.folder / "b.gpkg", self.folder / "tiles")["tiles"], 10)
 
     def test_errors_have_the_words_of_the_command(self):
         out = self.folder / "o.png"

@@ -1,4 +1,4 @@
-"""Writes PMTiles archives of version 3 by the specification, with the standard library alone."""
+"""Writes and reads PMTiles archives of version 3 by the specification, with the standard library alone."""
 
 import gzip
 import struct
@@ -92,3 +92,48 @@ def archive(tiles, leaf_size=0, depth=1, clustered=True, internal=GZIP, compress
     for place, value in (header or {}).items():
         fields[place] = value
     return struct.pack(HEADER, *fields) + root_bytes + meta + bytes(leaf_bytes) + bytes(data)
+
+
+def parsed_directory(data):
+    """The entries (number, offset, length, run) of a directory."""
+    values, value, shift = [], 0, 0
+    for byte in data:
+        value |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            values.append(value)
+            value = shift = 0
+    count = values[0]
+    steps, runs, lengths, offsets = (values[1 + i * count:1 + (i + 1) * count] for i in range(4))
+    entries, number, end = [], 0, 0
+    for step, run, length, offset in zip(steps, runs, lengths, offsets, strict=True):
+        number += step
+        at = end if offset == 0 else offset - 1
+        end = at + length
+        entries.append((number, at, length, run))
+    return entries
+
+
+def contents(data):
+    """The header's fields, the metadata as text, and {(z, x, y): bytes} of an archive with gzip directories."""
+    fields = struct.unpack_from(HEADER, data)
+    assert fields[0] == b"PMTiles" and fields[1] == 3 and fields[14:16] == (GZIP, NONE), fields
+    root, metadata, leaves, tiles = ((fields[i], fields[i] + fields[i + 1]) for i in (2, 4, 6, 8))
+    assert root[0] == 127 and root[1] <= tiles[0] == 16384 and tiles[1] == metadata[0] and metadata[1] == leaves[0], fields
+    assert leaves[1] == len(data), fields
+
+    def entries_of(packed):
+        for entry in parsed_directory(gzip.decompress(packed)):
+            if entry[3] > 0:
+                yield entry
+            else:
+                yield from entries_of(data[leaves[0] + entry[1]:leaves[0] + entry[1] + entry[2]])
+
+    entries = list(entries_of(data[slice(*root)]))
+    place = {number: tile for tile, number in numbers(fields[18] + 1).items()}
+    found = {place[number + i]: data[tiles[0] + offset:tiles[0] + offset + length]
+             for number, offset, length, run in entries for i in range(run)}
+    assert fields[10:13] == (len(found), len(entries), len({entry[1] for entry in entries})), fields
+    first = [entry[1] for entry in entries]
+    assert fields[13] == 1 and all(at == max(first[:i + 1]) or at in first[:i] for i, at in enumerate(first)), "not clustered"
+    return fields, gzip.decompress(data[slice(*metadata)]).decode(), found

@@ -68,7 +68,7 @@ class GpkgWriter : public TileWriter {
       insert_squeezed_ = prepare(std::string("INSERT INTO ") + kSqueezedTable + values);
       if (!insert_squeezed_) return failure();
     }
-    if (insert_ && setup.info.numbers) {
+    if (insert_ && is_coverage(setup.info)) {
       describe_ = prepare("INSERT INTO gpkg_2d_gridded_tile_ancillary (tpudt_name, tpudt_id) VALUES ('tiles', ?1)");
       if (!describe_) return failure();
     }

@@ -2,14 +2,36 @@
 
 #include <fmt/format.h>
 
+#include "streaming/convert/web_tiles.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {
 
-bool is_gpkg_name(const std::filesystem::path& output) { return output.extension() == ".gpkg"; }
+OutputKind output_kind(const std::filesystem::path& output) {
+  const std::filesystem::path ending = output.extension();
+  if (ending == ".gpkg") return OutputKind::geopackage;
+  if (ending == ".mbtiles") return OutputKind::mbtiles;
+  return ending == ".pmtiles" ? OutputKind::pmtiles : OutputKind::folder;
+}
+
+Status check_output(const std::filesystem::path& output, const TileSetInfo& info) {
+  const OutputKind kind = output_kind(output);
+  const bool web = kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
+  return web ? check_web_tiles(output, info) : Status(Done{});
+}
 
 Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup) {
-  return is_gpkg_name(setup.output) ? make_gpkg_writer(setup) : make_folder_writer(setup);
+  switch (output_kind(setup.output)) {
+    case OutputKind::geopackage:
+      return make_gpkg_writer(setup);
+    case OutputKind::mbtiles:
+      return make_mbtiles_writer(setup);
+    case OutputKind::pmtiles:
+      return make_pmtiles_writer(setup);
+    case OutputKind::folder:
+      break;
+  }
+  return make_folder_writer(setup);
 }
 
 Error cannot_write(const std::filesystem::path& output, int error_number) {

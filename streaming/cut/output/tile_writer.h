@@ -29,19 +29,25 @@ struct WriterSetup {
   std::filesystem::path part;
   TileSetInfo info;
   std::string last_change;  ///< "2026-01-31T12:00:00.000Z"
-  std::string mark;         ///< cut_mark()
+  std::string mark;         ///< cut_key of the set
   MayReplace may_replace;
 };
 
-/// True if an output of this name is a GeoPackage, false if it is a folder.
-[[nodiscard]] bool is_gpkg_name(const std::filesystem::path& output);
+enum class OutputKind { folder, geopackage, mbtiles, pmtiles };
+/// Kind of an output, by the ending of its name: .gpkg, .mbtiles, .pmtiles, else a folder.
+[[nodiscard]] OutputKind output_kind(const std::filesystem::path& output);
+/// Fails if the output's format cannot hold the set. Folders and GeoPackages hold every set.
+[[nodiscard]] Status check_output(const std::filesystem::path& output, const TileSetInfo& info);
 
-/// Makes a GeoPackage writer for a name that ends in .gpkg, else a writer of a directory {z}/{x}/{y}.jpg|png with
-/// tileset.json. The same tiles in the same order give the same bytes.
+/// Makes the writer for the output's kind; a folder has {z}/{x}/{y}.jpg|png and tileset.json. The set passes
+/// check_output(). The same tiles in the same order give the same bytes.
 [[nodiscard]] Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup);
 
 [[nodiscard]] Result<std::unique_ptr<TileWriter>> make_gpkg_writer(const WriterSetup& setup);
 [[nodiscard]] Result<std::unique_ptr<TileWriter>> make_folder_writer(const WriterSetup& setup);
+[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_mbtiles_writer(const WriterSetup& setup);
+/// Tiles may come in any order.
+[[nodiscard]] Result<std::unique_ptr<TileWriter>> make_pmtiles_writer(const WriterSetup& setup);
 
 /// "OUTPUT: cannot be written: No space left on device; …" thread: any
 [[nodiscard]] Error cannot_write(const std::filesystem::path& output, int error_number);
