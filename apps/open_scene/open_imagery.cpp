@@ -143,7 +143,9 @@ Status check_body(const SourceOptions& options, const TileSetInfo& info) {
                                                    : "say which it is with --body, or leave this tile set out")};
 }
 
-Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options, const CutProgress& progress) {
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& said, const CutProgress& progress) {
+  SourceOptions options = said;
+  if (said.other_body) options.body.reset();
   auto tiles = open_named(options, progress);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "apps/open_scene/project/project_paths.h"
@@ -30,14 +32,25 @@ SceneOptions Viewer::scene() const {
   now.night_lights = !globe.time || globe_.has_night_lights();
   now.graticule = graticule_.is_on();
   if (map_.exists()) now.map = map_.is_on();
+  // The rows of the layers have what the command line named.
+  now.overlays.clear();
+  now.night = {};
+  now.clouds = {};
+  now.objects.clear();
   layers_.describe(now);
   now.drawings.clear();
   return now;
 }
 
 // A project replaces the scene; any other file becomes a layer.
-void Viewer::open_file(std::filesystem::path file) {
-  is_project(file.string()) ? projects_.open(file) : layers_.open(std::move(file));
+void Viewer::open_file(const std::filesystem::path& file) {
+  is_project(file.string()) ? projects_.open(file) : layers_.open({.address = file.string()});
+}
+
+// Files that are not open yet go along with one that is of the body.
+void Viewer::leave_for_body(const Body& body, std::vector<SourceOptions> files) {
+  if (!files.empty()) std::ranges::move(layers_.leave_off(), std::back_inserter(files));
+  projects_.leave_for({.body = body, .layers = std::move(files)});
 }
 
 std::vector<LayerSwitch> Viewer::switches() {

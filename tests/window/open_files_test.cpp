@@ -79,7 +79,7 @@ TEST(OpenedFiles, HaveNamesWithoutSecrets) {
 
 TEST(OpenedFiles, ObjectsOnServersAreRefusedWithACure) {
   for (const char* address : {"https://maps.example/a.geojson", "https://maps.example/a.glb"}) {
-    const auto opened = open_dropped(address, {}, {});
+    const auto opened = open_dropped({.address = address}, {}, {});
     ASSERT_FALSE(opened);
     EXPECT_NE(opened.error().message.find("download this one"), std::string::npos) << opened.error().message;
   }
