@@ -42,9 +42,9 @@ constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, C map, F full screen,\n"
-    "/ search, W body, M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, J "
-    "project,\n"
-    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc twice quits.\n"
+    "/ search, M measure, D draw, E add data, W body, L layers, J project, P settings panel, U translucent,\n"
+    "X under the ground, B sky, T play the time, S stereo, I and F12 save pictures, 1 to 9 fly to bookmarks,\n"
+    "F1 or ? shortcuts, Esc twice quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -130,7 +130,10 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Open
   const SourceOptions& said = layer.source;
   const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
   const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
-  LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .source = said, .numbers = layer.numbers};
+  LayerRow row{.id = layer.id,
+               .name = said.remote.name.value_or(shown_name(address.without_query())),
+               .source = said,
+               .numbers = layer.numbers};
   row.tiles = layer.tiles;
   row.source.cuts = nullptr;  // those of the opening end with it
   row.source.opened = nullptr;
@@ -305,7 +308,8 @@ Result<ViewOptions> next_options(const ViewOptions& options, const NextScene& wa
   if (!wanted.afresh) go_on_with(wanted.body, left, next);
   const bool bare = next.scene.base.address.empty() && are_two_bodies(earth(), wanted.body);
   if (bare && next.open.empty() && next.message.empty())
-    next.message = fmt::format("There is no picture of {} yet; Ctrl + O opens one", body_phrase(wanted.body));
+    next.message =
+        fmt::format("There is no picture of {} yet; Ctrl + O opens one, E lists public ones", body_phrase(wanted.body));
   return next;
 }
 

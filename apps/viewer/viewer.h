@@ -11,6 +11,7 @@
 #include "apps/viewer/balloon/balloon.h"
 #include "apps/viewer/bodies/body_panel.h"
 #include "apps/viewer/bodies/body_question.h"
+#include "apps/viewer/catalogue/catalogue_panel.h"
 #include "apps/viewer/draw/draw.h"
 #include "apps/viewer/feature_list/feature_list.h"
 #include "apps/viewer/input.h"
@@ -118,6 +119,7 @@ class Viewer {
   void print_at_rest();
   void open_file(const std::filesystem::path& file);
   void leave_for_body(const Body& body, std::vector<SourceOptions> files);
+  void add_data(const CatalogueEntry& entry);
 
   Window& window_;
   Globe& globe_;
@@ -146,6 +148,8 @@ class Viewer {
       context_,
       {.open_globe = [this](const Body& body, auto files) { leave_for_body(body, std::move(files)); },
        .add_here = [this](SourceOptions file) { layers_.open(std::move(file)); }}};
+  CataloguePanel catalogue_{context_, options_.scene.base.offline,
+                            [this](const CatalogueEntry& entry) { add_data(entry); }};
   ViewModes modes_;
   Swipe swipe_{context_};
   Timeline timeline_{context_, [this] { return layers_.timed(); }};
@@ -171,9 +175,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 19> parts_{&help_,   &menu_,      &question_, &pictures_, &search_,  &open_,     &projects_,
-                                     &body_,   &bookmarks_, &list_,     &balloon_,  &profile_, &timeline_, &draw_,
-                                     &layers_, &modes_,     &measure_,  &cutting_,  &map_};
+  const std::array<Part*, 20> parts_{&help_, &menu_,      &question_,  &pictures_, &search_,  &open_,    &projects_,
+                                     &body_, &catalogue_, &bookmarks_, &list_,     &balloon_, &profile_, &timeline_,
+                                     &draw_, &layers_,    &modes_,     &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

@@ -4,6 +4,7 @@
 
 #include "apps/open_scene/project/project_paths.h"
 #include "apps/viewer/viewer.h"
+#include "streaming/georeference/figure.h"
 
 namespace terrella {
 
@@ -51,6 +52,12 @@ void Viewer::open_file(const std::filesystem::path& file) {
 void Viewer::leave_for_body(const Body& body, std::vector<SourceOptions> files) {
   if (!files.empty()) std::ranges::move(layers_.leave_off(), std::back_inserter(files));
   projects_.leave_for({.body = body, .layers = std::move(files)});
+}
+
+// Data of another body go to the globe of that body.
+void Viewer::add_data(const CatalogueEntry& entry) {
+  if (are_two_bodies(entry.body, globe_.options().body)) return leave_for_body(entry.body, {entry.said});
+  layers_.open(entry.said);
 }
 
 std::vector<LayerSwitch> Viewer::switches() {

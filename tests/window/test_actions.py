@@ -209,6 +209,7 @@ class Walk(WindowTest):
             "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
             "swipe: compare layers at a line": "v", "body: Earth, Moon, planets": "w",
+            "add data: public pictures by body and theme": "e",
             "measure: start, end": "m", "draw: place marks, lines, areas": "d",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}

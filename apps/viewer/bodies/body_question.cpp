@@ -13,12 +13,14 @@ namespace {
 
 constexpr float kQuestionWidth = 26.0F;  // in text heights
 
-std::string name_of(const OtherBodyFile& file) { return shown_name(file.said.address.with_secrets()); }
+std::string name_of(const OtherBodyFile& file) { return shown_name(file.said); }
 
 std::string question(const std::vector<OtherBodyFile>& files, const Body& globe) {
   const std::string what =
       files.size() == 1 ? name_of(files.front()) + " is" : fmt::format("{} files are", files.size());
-  return fmt::format("{} of {}, and this globe is {}.", what, body_phrase(files.front().body), body_phrase(globe));
+  const bool by_name = std::ranges::all_of(files, &OtherBodyFile::by_name);
+  return fmt::format("{} of {}{}, and this globe is {}.", what, body_phrase(files.front().body),
+                     by_name ? " by name" : "", body_phrase(globe));
 }
 
 /// A button that the Enter key presses too.

@@ -360,7 +360,7 @@ void Layers::add(OpenedFile file) {
 
 std::optional<GeoRect> Layers::add_row(OpenedFile file) {
   const std::string path = file.said.address.with_secrets();
-  LayerRow row{.name = shown_name(path), .source = file.said};
+  LayerRow row{.name = shown_name(file.said), .source = file.said};
   row.objects = {.file = path, .model_place = file.model_place};
   row.read_facts = std::move(file.read_facts);
   std::string told = "Added " + row.name + "; L shows the layers";

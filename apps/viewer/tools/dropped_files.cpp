@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <chrono>
 #include <string_view>
 #include <utility>
@@ -66,6 +68,12 @@ Result<std::shared_ptr<TileSource>> open_as_stated(SourceOptions options, const 
   return open_any_tiles(options, progress);
 }
 
+/// The body that a file's name has, if it is another one than the globe's.
+std::optional<Body> other_by_name(const SourceOptions& said, const Body& globe) {
+  const auto named = said.other_body ? std::nullopt : named_body(path_of(said));
+  return named && are_two_bodies(*named, globe) ? named : std::nullopt;
+}
+
 /// Opens tiles for the globe's body, or finds that they state another one, `other`. The Earth's needs no word, so tiles
 /// that open as the Earth's alone are of the Earth.
 Result<std::shared_ptr<TileSource>> open_and_judge(const SourceOptions& options, const CutProgress& progress,
@@ -84,6 +92,10 @@ Result<std::shared_ptr<TileSource>> open_and_judge(const SourceOptions& options,
 
 Result<OpenedFile> open_tiles(const SourceOptions& said, const SourceOptions& how, const CutProgress& progress) {
   SourceOptions tiles_options = with_words(options_beside(how, said.address), said);
+  if (const auto named = other_by_name(said, how.body.value_or(earth()))) {
+    return OpenedFile{
+        .said = said, .what = {}, .other_body = OtherBodyFile{.said = said, .body = *named, .by_name = true}};
+  }
   std::vector<std::shared_ptr<GrowingCut>> cuts;
   tiles_options.cuts = &cuts;
   OpenedRasters rasters;
@@ -93,7 +105,8 @@ Result<OpenedFile> open_tiles(const SourceOptions& said, const SourceOptions& ho
   if (!tiles) return tiles.error();
   if (other) {
     const bool of_heights = is_of_heights((*tiles)->info());
-    return OpenedFile{.said = said, .what = {}, .other_body = OtherBodyFile{said, *other, of_heights}};
+    return OpenedFile{
+        .said = said, .what = {}, .other_body = OtherBodyFile{.said = said, .body = *other, .of_heights = of_heights}};
   }
   const std::string name = said.address.redacted();
   FactsReader read_facts = facts_reader(tiles_options.address, {}, {}, rasters);
@@ -125,12 +138,34 @@ Result<OpenedFile> open_vector(const SourceOptions& said, const SourceOptions& h
 
 }  // namespace
 
+std::optional<Body> named_body(const std::filesystem::path& path) {
+  constexpr std::array kPictures = {".jpg", ".jpeg", ".png", ".webp"};
+  constexpr std::array kOtherMeanings = {"sphere", "sun", "io", "europa", "titan"};
+  if (std::ranges::find(kPictures, lower_extension(path)) == kPictures.end()) return {};
+  const std::string name = path.stem().string() + ".";
+  std::string word;
+  for (const char c : name) {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      word += char(std::tolower(static_cast<unsigned char>(c)));
+      continue;
+    }
+    const auto body = std::ranges::find(body_presets(), word, &Body::name);
+    if (body != body_presets().end() && std::ranges::find(kOtherMeanings, word) == kOtherMeanings.end()) return *body;
+    word.clear();
+  }
+  return {};
+}
+
 std::string shown_name(const std::filesystem::path& path) {
   const Url tile_set(path.string());
   const std::string shown = tile_set.without_query();
   if (shown.find("://") != shown.npos) return one_line(shown);
   const std::filesystem::path name = (path.has_filename() ? path : path.parent_path()).filename();
   return one_line(name.empty() ? shown : name.string());
+}
+
+std::string shown_name(const SourceOptions& said) {
+  return said.remote.name ? one_line(*said.remote.name) : shown_name(path_of(said));
 }
 
 Result<OpenedFile> open_dropped(const SourceOptions& said, const SourceOptions& how, const Geodetic& place,
@@ -195,7 +230,7 @@ std::optional<Result<OpenedFile>> DroppedFiles::poll() {
 
 std::string DroppedFiles::text() const {
   if (!busy()) return {};
-  const std::string name = shown_name(path_of(current_));
+  const std::string name = shown_name(current_);
   const int percent = percent_;
   return percent < 0 ? fmt::format("Opening {}", name) : fmt::format("Cutting {}: {} %; Esc cancels", name, percent);
 }

@@ -18,12 +18,17 @@
 
 namespace terrella {
 
-/// A file whose tiles are of another body than the globe's, by their own word.
+/// A file whose tiles are of another body than the globe's, by their own word or by the name of a picture.
 struct OtherBodyFile {
   SourceOptions said;  ///< the file or address, and what is said about it
   Body body;
   bool of_heights = false;
+  bool by_name = false;  ///< the file itself says nothing
 };
+
+/// The body that the name of a JPEG, PNG or WebP has as a word of its own ("moon_4k.jpg"), because such pictures rarely
+/// say where they lie. Nullopt for other files, and for names with other meanings, such as Europa. thread: any
+[[nodiscard]] std::optional<Body> named_body(const std::filesystem::path& path);
 
 /// Contents of a dropped file.
 struct OpenedFile {
@@ -45,6 +50,8 @@ struct OpenedFile {
 /// The file's name, or the whole address without its query: the last part of most addresses is just "{y}.jpg".
 /// thread: any
 [[nodiscard]] std::string shown_name(const std::filesystem::path& path);
+/// The name that is said about the source, else that of its address. thread: any
+[[nodiscard]] std::string shown_name(const SourceOptions& said);
 
 /// Opens files one after another on a background thread while the window continues. thread: main
 class DroppedFiles {
