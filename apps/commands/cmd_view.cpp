@@ -131,7 +131,7 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Open
   const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
   const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
   LayerRow row{.id = layer.id,
-               .name = said.remote.name.value_or(shown_name(address.without_query())),
+               .name = said.remote.name ? shown_name(said) : shown_name(address.without_query()),
                .source = said,
                .numbers = layer.numbers};
   row.tiles = layer.tiles;
@@ -343,6 +343,7 @@ int view(ViewOptions options) {
     options = next ? *next : options;
     if (!later) {  // the scene before comes back
       options.scene = explored->scene;
+      options.open.clear();
       options.message = later.error().message;
       later = explore(**window, options);
     }

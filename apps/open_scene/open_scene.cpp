@@ -74,7 +74,10 @@ Result<ImageryLayer> SceneOpener::open_lowest() {
     if (const Status left = leave_out(base.error()); !left) return left.error();
     const bool has_next = !options_.layers.empty();
     const bool on_earth = !options_.base.body || options_.base.body->name == earth().name;
-    if (!has_next && !on_earth) return Error{options_.project + ": none of its images can be opened"};
+    if (!has_next && !on_earth) {
+      const std::string& name = options_.project.empty() ? options_.base.body->name : options_.project;
+      return Error{name + ": none of its images can be opened"};
+    }
     set_images(options_, std::exchange(options_.layers, {}));
     if (!has_next) options_.base_look = {};
   }

@@ -9,7 +9,7 @@ from georeferenced import gdal, pgm
 from real_window import WindowTest, wait_until
 
 MOON = "+proj=longlat +R=1737400 +no_defs"
-ROW_X, FIRST_ROW, ROW_STEP = 60, 70, 20  # of the list of bodies, pixels from the panel's corner
+ROW_X, FIRST_ROW, ROW_STEP = 60, 70, 20  # rows of the list of bodies, pixels from the panel's corner
 ORDER = ("earth", "moon", "mars")
 BELOW_CREDITS = 60  # rows; a hidden layer is credited as long as its tiles are coming
 GLOBE, HERE = (75, 58), (187, 58)  # buttons of the question, pixels from the panel's corner

@@ -77,7 +77,6 @@ void BodyQuestion::draw_open(float foot) {
     ImGui::SetItemDefaultFocus();
     Ui::show_focus();
   }
-  tip("Opens that globe, as it was left, with the file as a layer. This globe is kept as it is.");
   const bool may_lie_here = std::ranges::none_of(files, &OtherBodyFile::of_heights);
   bool here = false;
   if (may_lie_here) {
@@ -87,6 +86,7 @@ void BodyQuestion::draw_open(float foot) {
   }
   beside_if_room("Cancel");
   const bool cancelled = button("Cancel");
+  write_wrapped("Each body keeps its layers and its view.", true);
   ImGui::End();
   if (to_globe) return answer_globe();
   if (here) return answer_here();

@@ -11,7 +11,7 @@ namespace terrella {
 /// Asks what to do with a file that says it is of another body than the globe. Owns the panel. thread: main
 class BodyQuestion : public Panel {
  public:
-  /// What follows an answer.
+  /// Effects of the answers.
   struct Calls {
     std::function<void(const Body&, std::vector<SourceOptions>)> open_globe;  ///< the files become layers of that body
     std::function<void(SourceOptions)> add_here;                              ///< the file becomes a layer here

@@ -111,7 +111,12 @@ Catalogue parse_catalogue(std::string_view text, const fs::path& folder, const s
 }
 
 Catalogue load_catalogue() {
-  Catalogue all = read_catalogue_file(data_file("catalogue.json"));
+  Catalogue all;
+  try {
+    all = read_catalogue_file(data_file("catalogue.json"));
+  } catch (const BrokenInstallation& broken) {
+    all.complaints.emplace_back(broken.what());
+  }
   const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
   std::error_code unknown;
   if (folder && fs::exists(*folder / "catalogue.json", unknown))

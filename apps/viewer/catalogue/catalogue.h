@@ -30,8 +30,8 @@ struct Catalogue {
 [[nodiscard]] Catalogue parse_catalogue(std::string_view text, const std::filesystem::path& folder,
                                         const std::string& where);
 
-/// Reads the catalogue of the program, then the user's: catalogue.json beside the settings, if it is there. Throws
-/// BrokenInstallation. thread: main
+/// Reads the catalogue of the program, then the user's: catalogue.json beside the settings, if it is there.
+/// thread: main
 [[nodiscard]] Catalogue load_catalogue();
 
 }  // namespace terrella
