@@ -51,8 +51,8 @@ void CataloguePanel::toggled() {
   catalogue_ = load_catalogue();
   for (const std::string& complaint : catalogue_.complaints) context_.messages.report(complaint);
   const std::string& here = context_.globe.options().body.name;
-  std::ranges::stable_partition(catalogue_.entries,
-                                [&here](const CatalogueEntry& entry) { return entry.body.name == here; });
+  std::stable_partition(catalogue_.entries.begin(), catalogue_.entries.end(),
+                        [&here](const CatalogueEntry& entry) { return entry.body.name == here; });
   find();
 }
 

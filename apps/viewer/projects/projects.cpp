@@ -126,7 +126,7 @@ std::optional<fs::path> session_file() {
 
 std::optional<fs::path> session_file(const Body& body) {
   const auto file = session_file();
-  if (!file) return file;
+  if (!file) return std::nullopt;
   return file->parent_path() / fmt::format("session-{}.terrella", body_file_word(body.name));
 }
 
