@@ -113,7 +113,13 @@ class Catalogue(WindowTest):
         self.assertEqual(self.middle(viewer, "again"), moon)
         self.open_list(viewer)
         viewer.save_grab(self.folder / "offline.png")
-        viewer.key("Escape")
+        wait_until("no message", lambda: "message" not in viewer.layout.panels)
+        viewer.xdotool("type", "--delay", "25", "snow cover")
+        viewer.settled()
+        viewer.key("Return")  # no cache has it
+        self.shows(viewer, "earth", "", "Red of the Earth")
+        viewer.panel("message")
+        viewer.save_grab(self.folder / "not_in_a_cache.png")
         self.assertEqual(viewer.quit(), 0)
 
     def test_a_faulty_entry_is_named_and_the_others_are_listed(self):
