@@ -1,12 +1,13 @@
 """Bodies in a real window: each keeps its scene, and a picture of another body asks once."""
 
 import json
+import subprocess
 import unittest
 
 import pictures
 import png
 from georeferenced import gdal, pgm
-from real_window import WindowTest, wait_until
+from real_window import PROGRAM, WindowTest, wait_until
 
 MOON = "+proj=longlat +R=1737400 +no_defs"
 ROW_X, FIRST_ROW, ROW_STEP = 60, 70, 20  # rows of the list of bodies, pixels from the panel's corner
@@ -141,6 +142,13 @@ class Bodies(WindowTest):
         viewer.key("Return")
         self.shows(viewer, "moon", "crater.tif")
         self.assertEqual(viewer.quit(), 0)
+
+    def test_render_draws_a_body_without_pictures(self):
+        project = self.folder / "bare.terrella"
+        project.write_text('{"terrella": 1, "settings": {"body": "moon"}, "layers": []}', encoding="ascii")
+        subprocess.run([PROGRAM, "render", project, "-o", self.folder / "bare.png", "--size", "64x64"], check=True,
+                       timeout=60, capture_output=True)
+        self.assertEqual(png.read(self.folder / "bare.png")[:2], (64, 64))
 
     def test_a_picture_named_after_a_body_asks_too(self):
         picture = self.folder / "mars_small.png"
