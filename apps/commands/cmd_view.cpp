@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,12 +23,14 @@
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
+#include "apps/viewer/bodies/body_names.h"
 #include "apps/viewer/projects/projects.h"
 #include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/map_data.h"
 #include "apps/viewer/tools/recent_files.h"
 #include "apps/viewer/viewer.h"
 #include "streaming/cut/growing/growing_cut.h"
+#include "streaming/georeference/figure.h"
 #include "streaming/remote/describe_remote.h"
 
 namespace terrella {
@@ -40,9 +43,9 @@ constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, C map, F full screen,\n"
-    "/ search, M measure, U translucent, X under the ground, B sky, T play the time, S stereo, P settings panel, J "
-    "project,\n"
-    "L layers, I and F12 save pictures, 1 to 9 fly to bookmarks, F1 or ? shortcuts, Esc twice quits.\n"
+    "/ search, M measure, D draw, E add data, W body, L layers, J project, P settings panel, U translucent,\n"
+    "X under the ground, B sky, T play the time, S stereo, I and F12 save pictures, 1 to 9 fly to bookmarks,\n"
+    "F1 or ? shortcuts, Esc twice quits.\n"
     "\n"
     "Examples:\n"
     "  terrella view                                      the Earth\n"
@@ -64,7 +67,8 @@ struct ViewOptions {
   KeptSettings kept;
   bool first_run = false;
   std::string message;
-  bool restored = false;  ///< the scene is that of the last session
+  bool restored = false;            ///< the scene is that of the last session
+  std::vector<SourceOptions> open;  ///< files and addresses that become layers
 };
 
 /// True if the command line says nothing about the scene.
@@ -76,22 +80,26 @@ bool names_no_scene(const CLI::App& command) {
   });
 }
 
-/// Begins with the scene that was last open. A session file that cannot be read is kept under another name.
-void restore_session(ViewOptions& options) {
-  const auto file = session_file();
+/// Takes the scene of a session file. A file that cannot be read is kept under another name. False without a scene.
+bool take_session(const std::optional<std::filesystem::path>& file, ViewOptions& options) {
   std::error_code failed;
-  if (!file || !std::filesystem::exists(*file, failed)) return;
+  if (!file || !std::filesystem::exists(*file, failed)) return false;
   SceneOptions scene = options.scene;
   const Status read = read_project(*file, scene);
   if (!read) {
     options.message = set_aside(*file, read.error().message);
-    return;
+    return false;
   }
   scene.size = options.scene.size;
   scene.project.clear();
   options.scene = std::move(scene);
-  options.message = "The last session is restored; J begins a new one";
-  options.restored = true;
+  return true;
+}
+
+/// Begins with the scene that was last open.
+void restore_session(ViewOptions& options) {
+  options.restored = take_session(session_file(), options);
+  if (options.restored) options.message = "The last session is restored; J begins a new one";
 }
 
 // Applies the kept settings of earlier runs; options on the command line have priority.
@@ -124,7 +132,10 @@ LayerRow image_row(const OpenedScene& scene, const SceneLayer& layer, const Open
   const SourceOptions& said = layer.source;
   const Url address = said.address.empty() ? Url(scene.base.name) : said.address;
   const DescribedBand band{.band = said.numbers.band, .nodata = said.numbers.nodata};
-  LayerRow row{.id = layer.id, .name = shown_name(address.without_query()), .source = said, .numbers = layer.numbers};
+  LayerRow row{.id = layer.id,
+               .name = said.remote.name ? shown_name(said) : shown_name(address.without_query()),
+               .source = said,
+               .numbers = layer.numbers};
   row.tiles = layer.tiles;
   row.source.cuts = nullptr;  // those of the opening end with it
   row.source.opened = nullptr;
@@ -182,8 +193,9 @@ std::string remember(const SceneOptions& scene) {
 
 /// The end of an exploration.
 struct Explored {
-  std::optional<std::filesystem::path> next{};  ///< see Viewer::run()
-  SceneOptions scene;                           ///< as it was at the end
+  std::optional<NextScene> next{};          ///< see Viewer::run()
+  SceneOptions scene;                       ///< as it was at the end
+  LengthUnits units = LengthUnits::metric;  ///< likewise
 };
 
 /// Message for the start: the complaint about the settings, or what a project leaves out, or nothing.
@@ -220,7 +232,9 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
   signals.reset();
   window.show();
   if (options.full_screen) window.toggle_full_screen();
-  const auto part = part_with_data(scene->images.front().source.address, scene->base.grid.bounds);
+  const auto part = scene->images.empty()
+                        ? std::nullopt
+                        : part_with_data(scene->images.front().source.address, scene->base.grid.bounds);
   const Camera asked = wanted.camera.value_or(default_camera(part, scene->body.ellipsoid, window.framebuffer()));
   // Later heights raise the eye with the ground, as everywhere in the window.
   const Camera start = out_of_ground(asked, 0.0, may_be_underground(wanted));
@@ -243,34 +257,63 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
                                      .kept = options.kept,
                                      .units = options.units.value_or(options.kept.units),
                                      .first_run = options.first_run,
-                                     .message = first_message(options, *scene)};
+                                     .message = first_message(options, *scene),
+                                     .open = options.open};
   Viewer viewer(window, *scene->globe, viewer_options);
   auto next = viewer.run();
-  return Explored{.next = std::move(next), .scene = viewer.scene()};
+  return Explored{.next = std::move(next), .scene = viewer.scene(), .units = viewer.units()};
 }
 
-/// The included Earth in the window of a scene, with its limits.
-SceneOptions new_scene(const SceneOptions& before, Viewport window) {
+/// The globe of a body as at the first start, in the window of a scene, with its limits: the included Earth, or no
+/// picture.
+SceneOptions new_scene(const SceneOptions& before, Viewport window, const Body& body) {
   SceneOptions scene;
   scene.size = window;
   scene.base = options_beside(before.base, {});
-  scene.base.body.reset();
+  scene.base.body = body;
+  scene.base_look.shown = !are_two_bodies(earth(), body);
   scene.memory_mb = before.memory_mb;
   scene.surface.inner_sphere_srgb = kInnerSphere_srgb;
   return scene;
 }
 
+/// The scenes that bodies had in this run when the user left them, by the body's name.
+using LeftScenes = std::map<std::string, SceneOptions>;
+
+/// Goes on with a body as it was left: in this run, or in an earlier one.
+void go_on_with(const Body& body, const LeftScenes& left, ViewOptions& options) {
+  const auto known = left.find(body.name);
+  if (known == left.end()) {
+    if (options.kept.restore) (void)take_session(session_file(body), options);
+    return;
+  }
+  const Viewport window = options.scene.size;
+  options.scene = known->second;
+  options.scene.size = window;
+  options.scene.leave_out_faulty = true;
+}
+
 /// The options for the scene that follows an explored one.
-Result<ViewOptions> next_options(const ViewOptions& options, const Explored& explored, const Window& window) {
+Result<ViewOptions> next_options(const ViewOptions& options, const NextScene& wanted, const Window& window,
+                                 const LeftScenes& left) {
   ViewOptions next = options;
-  next.scene = new_scene(options.scene, window.framebuffer());
+  next.scene = new_scene(options.scene, window.framebuffer(), wanted.body);
   next.full_screen = false;  // the window is as the user left it
   next.first_run = false;
-  next.units.reset();
+  next.restored = false;
   next.message.clear();
+  next.open = wanted.layers;
   if (const auto file = settings_file()) next.kept = load_settings(*file).settings;
-  if (explored.next->empty()) return next;
-  if (const Status read = read_project(*explored.next, next.scene); !read) return read.error();
+  if (!wanted.project.empty()) {
+    next.scene.base.body.reset();
+    if (const Status read = read_project(wanted.project, next.scene); !read) return read.error();
+    return next;
+  }
+  if (!wanted.afresh) go_on_with(wanted.body, left, next);
+  const bool bare = next.scene.base.address.empty() && are_two_bodies(earth(), wanted.body);
+  if (bare && next.open.empty() && next.message.empty())
+    next.message =
+        fmt::format("There is no picture of {} yet; Ctrl + O opens one, E lists public ones", body_phrase(wanted.body));
   return next;
 }
 
@@ -284,16 +327,28 @@ int view(ViewOptions options) {
   auto explored = explore(**window, options);
   if (!explored && options.restored && !StopSignals::came()) {  // the program starts in any case
     options.message = "The last session cannot be restored: " + explored.error().message;
-    options.scene = new_scene(options.scene, (*window)->framebuffer());
+    options.scene = new_scene(options.scene, (*window)->framebuffer(), earth());
     explored = explore(**window, options);
   }
   if (!explored) return fail("view", explored.error().message);
+  LeftScenes left;
   while (explored->next) {
-    const auto next = next_options(options, *explored, **window);
+    NextScene& wanted = *explored->next;
+    options.units = explored->units;
+    left.insert_or_assign(explored->scene.base.body->name, explored->scene);
+    auto next = next_options(options, wanted, **window, left);
     auto later = next ? explore(**window, *next) : Result<Explored>(next.error());
+    if (!later && wanted.project.empty() && !std::exchange(wanted.afresh, true)) {  // a body opens in any case
+      const auto file = session_file(wanted.body);
+      const std::string why = later.error().message;
+      next = next_options(options, wanted, **window, left);
+      next->message = file ? set_aside(*file, why) : why;
+      later = explore(**window, *next);
+    }
     options = next ? *next : options;
     if (!later) {  // the scene before comes back
       options.scene = explored->scene;
+      options.open.clear();
       options.message = later.error().message;
       later = explore(**window, options);
     }

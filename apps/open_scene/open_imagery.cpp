@@ -143,7 +143,9 @@ Status check_body(const SourceOptions& options, const TileSetInfo& info) {
                                                    : "say which it is with --body, or leave this tile set out")};
 }
 
-Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options, const CutProgress& progress) {
+Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& said, const CutProgress& progress) {
+  SourceOptions options = said;
+  if (said.other_body) options.body.reset();
   auto tiles = open_named(options, progress);
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
@@ -159,7 +161,8 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& options,
   if (mercator) return tiles;
   info.grid.projection = options.projection.value_or(info.grid.projection);
   info.grid.latitude = options.latitude.value_or(info.grid.latitude);
-  if (info.grid == (*tiles)->info().grid) return tiles;
+  info.attribution = options.remote.attribution.value_or(info.attribution);
+  if (info.grid == (*tiles)->info().grid && info.attribution == (*tiles)->info().attribution) return tiles;
   return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
 }
 

@@ -8,6 +8,7 @@
 #include "apps/open_scene/scene_objects.h"
 #include "apps/open_scene/swipe_sides.h"
 #include "apps/process/console.h"
+#include "streaming/georeference/figure.h"
 
 namespace terrella {
 namespace {
@@ -19,6 +20,12 @@ Result<Body> scene_body(const SceneOptions& options, const TileSetInfo& info) {
   auto said = parse_body(info.body);
   if (!said) return Error{info.name + ": its description names the body '" + info.body + "': " + said.error().message};
   return said;
+}
+
+/// True for the globe of another body without pictures: its lowest one would be the included Earth, hidden.
+bool is_bare(const SceneOptions& options) {
+  const std::optional<Body>& body = options.base.body;
+  return options.base.address.empty() && !options.base_look.shown && body && are_two_bodies(earth(), *body);
 }
 
 /// The included Earth ignores the options of numbers, which are its overlays'.
@@ -58,15 +65,19 @@ Status SceneOpener::leave_out(const Error& why) {
   return Done{};
 }
 
-// The lowest image of a project that can be opened is its base, at last the included Earth.
+// The lowest image of a project that can be opened is its base, at last the included Earth. A bare globe has no tiles.
 Result<ImageryLayer> SceneOpener::open_lowest() {
   for (;;) {
+    if (is_bare(options_)) return ImageryLayer{};
     auto base = open_base(options_.base);
     if (base || options_.base.address.empty()) return base;
     if (const Status left = leave_out(base.error()); !left) return left.error();
     const bool has_next = !options_.layers.empty();
     const bool on_earth = !options_.base.body || options_.base.body->name == earth().name;
-    if (!has_next && !on_earth) return Error{options_.project + ": none of its images can be opened"};
+    if (!has_next && !on_earth) {
+      const std::string& name = options_.project.empty() ? options_.base.body->name : options_.project;
+      return Error{name + ": none of its images can be opened"};
+    }
     set_images(options_, std::exchange(options_.layers, {}));
     if (!has_next) options_.base_look = {};
   }
@@ -88,6 +99,7 @@ Status SceneOpener::make_globe(const GlobeOptions& options, ImageryLayer base) {
   if (options.time) {
     if (Status lit = scene_.globe->set_night_lights(options_.night_lights); !lit) return lit;
   }
+  if (!base.tiles) return Done{};
   ImageLook look = options_.base_look;
   look.numbers = base.look.numbers;
   const auto added = scene_.globe->add_imagery(base.tiles, look);
@@ -183,10 +195,10 @@ Result<OpenedScene> SceneOpener::open(const PrepareGlobe& prepare) {
   if (options_.project_fault) return *options_.project_fault;
   auto base = open_lowest();
   if (!base) return base.error();
-  const auto body = scene_body(options_, base->tiles->info());
+  const auto body = base->tiles ? scene_body(options_, base->tiles->info()) : Result<Body>(*options_.base.body);
   if (!body) return body.error();
   options_.base.body = scene_.body = *body;
-  scene_.base = base->tiles->info();
+  if (base->tiles) scene_.base = base->tiles->info();
   if (const Status raised = open_heights(); !raised) return raised.error();
   if (const Status eye = check_eye(options_, *body, options_.size); !eye) {
     throw CLI::ValidationError("--camera", eye.error().message);

@@ -25,8 +25,8 @@ struct SceneLayer {
 /// A globe with the layers that the options of a scene name.
 struct OpenedScene {
   Body body = earth();
-  TileSetInfo base{};                        ///< description of TILESET
-  std::vector<SceneLayer> images{};          ///< lowest first
+  TileSetInfo base{};                        ///< description of TILESET; none for a globe without pictures
+  std::vector<SceneLayer> images{};          ///< lowest first; empty for a globe without pictures
   std::vector<SceneObjects> objects{};       ///< lowest first
   std::optional<ElevationSource> heights{};  ///< none without --elevation
   std::vector<std::string> left_out{};       ///< messages about layers of a project that are left out
@@ -39,7 +39,8 @@ using PrepareGlobe = std::function<Result<GlobeOptions>(const Body& body)>;
 
 /// Opens all that the options name: TILESET, heights, overlays, night, clouds, objects, and the layers of a project.
 /// The error names the input. Layers of a project that cannot be opened are left out, with a message on standard error;
-/// if its lowest image is one of them, the next one takes its place, at last the included Earth. Throws
+/// if its lowest image is one of them, the next one takes its place, at last the included Earth. A project without
+/// images on another body is a globe without pictures. Throws
 /// CLI::ValidationError if the eye is out of range, and BrokenInstallation. thread: main
 [[nodiscard]] Result<OpenedScene> open_scene(SceneOptions options, const PrepareGlobe& prepare);
 

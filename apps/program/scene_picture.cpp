@@ -270,6 +270,7 @@ Status ScenePicture::set_shown(LayerId layer, std::vector<ShownWhen> features) {
 bool ScenePicture::has_all_objects() const { return parts_->scene.all_objects; }
 
 const std::optional<GeoRect>& ScenePicture::Parts::with_data() {
+  if (!part && scene.images.empty()) part.emplace();
   if (!part) part = part_with_data(scene.images.front().source.address, scene.base.grid.bounds);
   return *part;
 }

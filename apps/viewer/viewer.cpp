@@ -52,7 +52,8 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   draw_.restore(options.scene);
 }
 
-std::optional<std::filesystem::path> Viewer::run() {
+std::optional<NextScene> Viewer::run() {
+  for (SourceOptions& file : std::exchange(options_.open, {})) layers_.open(std::move(file));
   while (!is_closed()) {
     wait_for_work();
     handle_events();
@@ -97,8 +98,9 @@ void Viewer::handle_events() {
   if (const auto key = input_.take_bookmark()) {
     key->set ? bookmarks_.save(key->number) : bookmarks_.fly_to(key->number);
   }
-  for (std::filesystem::path& file : input_.take_dropped()) open_file(std::move(file));
+  for (const std::filesystem::path& file : input_.take_dropped()) open_file(file);
   cutting_.add(layers_.take_opened());
+  for (OtherBodyFile& file : layers_.take_other_bodies()) question_.ask(std::move(file));
   if (layers_.take_open_wish()) open_.toggle();
   if (auto layer = layers_.take_list_wish()) list_.open(*std::move(layer));
   follow_panels();
@@ -253,8 +255,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 11> newest{&pictures_, &profile_,   &timeline_, &search_, &open_, &projects_,
-                                &list_,     &bookmarks_, &draw_,     &layers_, &modes_};
+  std::array<Panel*, 14> newest{&question_, &pictures_,  &profile_, &timeline_,  &search_, &open_,   &projects_,
+                                &body_,     &catalogue_, &list_,    &bookmarks_, &draw_,   &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

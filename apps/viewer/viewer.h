@@ -9,6 +9,9 @@
 #include "apps/open_scene/options/source_options.h"
 #include "apps/viewer/action.h"
 #include "apps/viewer/balloon/balloon.h"
+#include "apps/viewer/bodies/body_panel.h"
+#include "apps/viewer/bodies/body_question.h"
+#include "apps/viewer/catalogue/catalogue_panel.h"
 #include "apps/viewer/draw/draw.h"
 #include "apps/viewer/feature_list/feature_list.h"
 #include "apps/viewer/input.h"
@@ -51,8 +54,9 @@ struct ViewerOptions {
   bool map = true;          ///< show the map, if there is one of the body
   KeptSettings kept = {};   ///< settings from the file
   LengthUnits units = LengthUnits::metric;
-  bool first_run = false;    ///< true: show a hint
-  std::string message = {};  ///< first message; may be empty
+  bool first_run = false;                ///< true: show a hint
+  std::string message = {};              ///< first message; may be empty
+  std::vector<SourceOptions> open = {};  ///< files and addresses that become layers
 };
 
 /// The window's main loop: handles events, draws frames, and wires the parts of the viewer. Draws only on changes,
@@ -62,11 +66,12 @@ class Viewer {
   /// The window must be shown and its context current; window and globe must outlive the viewer.
   Viewer(Window& window, Globe& globe, const ViewerOptions& options);
 
-  /// Runs until the user quits, or opens a project. Returns the project, or an empty path for the Earth as at the first
-  /// start; nullopt: the user has quit.
-  std::optional<std::filesystem::path> run();
+  /// Runs until the user quits, or leaves for another scene. Returns that scene; nullopt: the user has quit.
+  std::optional<NextScene> run();
   /// The scene as the window shows it, as a project without drawings.
   [[nodiscard]] SceneOptions scene() const;
+  /// Units of the lengths that the window shows.
+  [[nodiscard]] LengthUnits units() const { return ui_.units(); }
 
   /// All actions of the user, in the order of the list of shortcuts. thread: any
   [[nodiscard]] static std::span<const Action> actions();
@@ -115,7 +120,9 @@ class Viewer {
   [[nodiscard]] KeptSettings now_kept();
   void keep_settings();
   void print_at_rest();
-  void open_file(std::filesystem::path file);
+  void open_file(const std::filesystem::path& file);
+  void leave_for_body(const Body& body, std::vector<SourceOptions> files);
+  void add_data(const CatalogueEntry& entry);
 
   Window& window_;
   Globe& globe_;
@@ -136,9 +143,16 @@ class Viewer {
   BookmarkViews bookmarks_{context_, [this] { return search_.place_shown(); }};
   FrameGraph frame_graph_{context_};
   Layers layers_;
-  OpenDialog open_{context_, [this](std::filesystem::path file) { open_file(std::move(file)); }};
+  OpenDialog open_{context_, [this](const std::filesystem::path& file) { open_file(file); }};
   Projects projects_{context_, [this] { return scene(); }, [this] { return draw_.text(); }, options_.scene.project,
                      options_.kept.restore};
+  BodyPanel body_{context_, [this](const Body& body) { leave_for_body(body, {}); }};
+  BodyQuestion question_{
+      context_,
+      {.open_globe = [this](const Body& body, auto files) { leave_for_body(body, std::move(files)); },
+       .add_here = [this](SourceOptions file) { layers_.open(std::move(file)); }}};
+  CataloguePanel catalogue_{context_, options_.scene.base.offline,
+                            [this](const CatalogueEntry& entry) { add_data(entry); }};
   ViewModes modes_;
   Swipe swipe_{context_};
   Timeline timeline_{context_, [this] { return layers_.timed(); }};
@@ -164,9 +178,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 17> parts_{&help_,      &menu_,  &pictures_, &search_,  &open_,     &projects_,
-                                     &bookmarks_, &list_,  &balloon_,  &profile_, &timeline_, &draw_,
-                                     &layers_,    &modes_, &measure_,  &cutting_, &map_};
+  const std::array<Part*, 20> parts_{&help_, &menu_,      &question_,  &pictures_, &search_,  &open_,    &projects_,
+                                     &body_, &catalogue_, &bookmarks_, &list_,     &balloon_, &profile_, &timeline_,
+                                     &draw_, &layers_,    &modes_,     &measure_,  &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

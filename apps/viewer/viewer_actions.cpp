@@ -264,6 +264,8 @@ constinit const Action Viewer::kActions[] = {
      .mouse = "menu, drop a file"},
     {"J", "project: save, restore at the next start, new", [](V v) { v.projects_.toggle(); }, U"j", 0, 0,
      Action::types},
+    {"E", "add data: public pictures by body and theme", [](V v) { v.catalogue_.toggle(); }, U"e", 0, 0, Action::types},
+    {"W", "body: Earth, Moon, planets", [](V v) { v.body_.toggle(); }, U"w"},
     {"A", "dates of layers: play, step", [](V v) { v.timeline_.toggle(); }, U"a"},
     {"V", "swipe: compare layers at a line", [](V v) { v.toggle_swipe(); }, U"v"},
     {"U", "translucent surface", [](V v) { v.modes_.next_opacity(); }, U"u"},

@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "apps/open_scene/project/project_paths.h"
 #include "apps/viewer/viewer.h"
+#include "streaming/georeference/figure.h"
 
 namespace terrella {
 
@@ -31,14 +34,31 @@ SceneOptions Viewer::scene() const {
   now.night_lights = !globe.time || globe_.has_night_lights();
   now.graticule = graticule_.is_on();
   if (map_.exists()) now.map = map_.is_on();
+  // The rows of the layers have what the command line named.
+  now.overlays.clear();
+  now.night = {};
+  now.clouds = {};
+  now.objects.clear();
   layers_.describe(now);
   now.drawings.clear();
   return now;
 }
 
 // A project replaces the scene; any other file becomes a layer.
-void Viewer::open_file(std::filesystem::path file) {
-  is_project(file.string()) ? projects_.open(file) : layers_.open(std::move(file));
+void Viewer::open_file(const std::filesystem::path& file) {
+  is_project(file.string()) ? projects_.open(file) : layers_.open({.address = file.string()});
+}
+
+// Files that are not open yet go along with one that is of the body.
+void Viewer::leave_for_body(const Body& body, std::vector<SourceOptions> files) {
+  if (!files.empty()) std::ranges::move(layers_.leave_off(), std::back_inserter(files));
+  projects_.leave_for({.body = body, .layers = std::move(files)});
+}
+
+// Data of another body go to the globe of that body.
+void Viewer::add_data(const CatalogueEntry& entry) {
+  if (are_two_bodies(entry.body, globe_.options().body)) return leave_for_body(entry.body, {entry.said});
+  layers_.open(entry.said);
 }
 
 std::vector<LayerSwitch> Viewer::switches() {

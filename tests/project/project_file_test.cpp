@@ -33,6 +33,9 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                         .lit = true,
                         .contours = 12.5};
   scene.base_look = {.shown = false, .opacity = 0.25};
+  scene.base.other_body = true;
+  scene.base.remote.name = "Mars in grey";
+  scene.base.remote.attribution = "Somebody";
   scene.layers = {{.source = {.address = "https://example.org/{z}/{x}/{y}.png",
                               .remote = {.layer = "a",
                                          .matrix_set = "b",
@@ -113,6 +116,9 @@ TEST(ProjectFile, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(read.stereo, scene.stereo);
   EXPECT_EQ(read.base.numbers, scene.base.numbers);
   EXPECT_EQ(read.base.place, scene.base.place);
+  EXPECT_TRUE(read.base.other_body);
+  EXPECT_EQ(read.base.remote.name, scene.base.remote.name);
+  EXPECT_EQ(read.base.remote.attribution, scene.base.remote.attribution);
   EXPECT_EQ(read.base_look, scene.base_look);
   EXPECT_EQ(read.layers[0].look, scene.layers[0].look);
   EXPECT_EQ(read.layers[1].look, scene.layers[1].look);

@@ -44,19 +44,6 @@ class Projects(WindowTest):
         return wait_until(f"{count} layers in the session",
                           lambda: len(self.layers(self.session)) == count and self.layers(self.session))
 
-    def saved_picture(self, viewer, name):
-        """The picture that the window saves without its panels, twice the window's size."""
-        viewer.key("i")
-        viewer.panel("Save picture")
-        viewer.settled()
-        viewer.key("Return")
-
-        def whole():
-            files = list(self.folder.glob("terrella-*.png"))
-            return files[0] if files and files[0].read_bytes().endswith(b"IEND\xaeB`\x82") else None
-
-        return wait_until("the picture", whole).rename(self.folder / f"{name}.png")
-
     def render(self, project, name):
         """The same project by `terrella render`, as large as saved_picture()."""
         file = self.folder / f"{name}.png"

@@ -77,9 +77,20 @@ TEST(OpenedFiles, HaveNamesWithoutSecrets) {
   EXPECT_EQ(shown_name("https://tiles.example/{z}/{x}/{y}.png?key=abc"), "https://tiles.example/{z}/{x}/{y}.png");
 }
 
+TEST(OpenedFiles, APictureIsOfTheBodyThatItsNameHasAsAWord) {
+  for (const char* name : {"/a/moon.jpg", "Moon_4k.PNG", "the-moon-2.webp"}) {
+    const auto body = named_body(name);
+    ASSERT_TRUE(body) << name;
+    EXPECT_EQ(body->name, "moon");
+  }
+  for (const char* name : {"honeymoon.jpg", "moon.tif", "/moon/land.jpg", "europa.png", "a.jpg"}) {
+    EXPECT_FALSE(named_body(name)) << name;
+  }
+}
+
 TEST(OpenedFiles, ObjectsOnServersAreRefusedWithACure) {
   for (const char* address : {"https://maps.example/a.geojson", "https://maps.example/a.glb"}) {
-    const auto opened = open_dropped(address, {}, {});
+    const auto opened = open_dropped({.address = address}, {}, {});
     ASSERT_FALSE(opened);
     EXPECT_NE(opened.error().message.find("download this one"), std::string::npos) << opened.error().message;
   }

@@ -312,6 +312,19 @@ class WindowTest(unittest.TestCase):
         files[0].rename(kept)
         return kept
 
+    def saved_picture(self, viewer, name):
+        """The picture that the window saves without its panels, twice the window's size."""
+        viewer.key("i")
+        viewer.panel("Save picture")
+        viewer.settled()
+        viewer.key("Return")
+
+        def whole():
+            files = list(self.folder.glob("terrella-*.png"))
+            return files[0] if files and files[0].read_bytes().endswith(b"IEND\xaeB`\x82") else None
+
+        return wait_until("the picture", whole).rename(self.folder / f"{name}.png")
+
     def picture(self, viewer, name, shows=lambda picture: True):
         """The screenshot of a window at rest, once it shows what is looked for: events act some frames later."""
 

@@ -208,7 +208,7 @@ class Walk(WindowTest):
             "graticule": "g", "map: coastlines, borders and names": "c", "view settings": "p",
             "layers: show, opacity, order, remove": "l",
             "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
-            "swipe: compare layers at a line": "v",
+            "swipe: compare layers at a line": "v", "body: Earth, Moon, planets": "w",
             "measure: start, end": "m", "draw: place marks, lines, areas": "d",
         }
         ways = {what: (self.shown, lambda k=k: key(k), lambda w=what: menu(w), none, none) for what, k in simple.items()}
@@ -243,6 +243,9 @@ class Walk(WindowTest):
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
             "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
                                    self.close),
+            "add data: public pictures by body and theme": (
+                self.shown, lambda: key("e"), lambda: menu("add data: public pictures by body and theme"), none,
+                self.close),
             "measure, draw: add the middle of the view": (self.shown, lambda: key("Return"),
                                                     lambda: self.viewer.click(260, 320), self.measured,
                                                     self.after_measuring),

@@ -45,7 +45,7 @@ class Hands(WindowTest):
 
     def test_a_right_click_copies_the_place_and_the_view(self):
         viewer = self.start("--camera", "46,7,3000000")
-        for x, y in ((200, 75), (240, 60)):
+        for x, y in ((200, 55), (240, 60)):
             viewer.set_clipboard("nothing")
             self.menu_item(viewer, x, y, 0)
             lat, lon = (float(part) for part in self.copied(viewer).split(","))
@@ -59,7 +59,7 @@ class Hands(WindowTest):
 
     def test_centre_here_flies_at_the_same_height(self):
         viewer = self.start("--camera", "46,7,3000000")
-        for x, y in ((400, 75), (250, 60)):
+        for x, y in ((400, 55), (250, 60)):
             there = viewer.camera.ground(x + 0.5, y + 0.5)
             self.menu_item(viewer, x, y, 4)
             after = viewer.next_camera()
@@ -85,7 +85,7 @@ class Hands(WindowTest):
 
     def test_measuring_by_the_menu_is_saved_twice_and_overwrites_nothing(self):
         viewer = self.start("--camera", "0,20,9000000")
-        self.menu_item(viewer, 220, 75, 3)  # measure from here
+        self.menu_item(viewer, 220, 55, 3)  # measure from here
         plain = viewer.settled()
         viewer.move(420, 240)
         wait_until("the band to the cursor", lambda: differing(plain, viewer.grab(), ROWS) > 300)
@@ -99,7 +99,7 @@ class Hands(WindowTest):
         self.screenshot(viewer, "measured")
         way, area = json.loads(files[0].read_text())["features"]
         self.assertEqual(files[0].read_text(), files[1].read_text())
-        for pixel, (lon, lat) in zip(((220, 75), (420, 240), (300, 330)), way["geometry"]["coordinates"]):
+        for pixel, (lon, lat) in zip(((220, 55), (420, 240), (300, 330)), way["geometry"]["coordinates"]):
             self.assertLess(viewer.camera.miss_px(ecef(lat, lon, 0.0), pixel[0] + 0.5, pixel[1] + 0.5), 1.0)
         lengths = way["properties"]["segment_lengths_m"]
         self.assertAlmostEqual(sum(lengths), way["properties"]["length_m"], delta=0.01)

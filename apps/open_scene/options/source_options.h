@@ -22,6 +22,7 @@ struct OpenedRasters;
 struct SourceOptions {
   Url address{};                           ///< file, folder or address; empty: the included Earth
   std::optional<Body> body{};              ///< the globe's; absent: the source's
+  bool other_body = false;                 ///< tiles of another body than the globe's are taken too
   std::optional<Projection> projection{};  ///< absent: as the source states
   std::optional<LatitudeKind> latitude{};  ///< absent: as the source states
   PlaceWords place{};                      ///< place of a picture
@@ -54,6 +55,7 @@ struct SourceOptions {
 /// `how` a source is opened, with what is said about another source. thread: any
 [[nodiscard]] inline SourceOptions with_words(SourceOptions how, const SourceOptions& said) {
   how.address = said.address;
+  how.other_body = said.other_body;
   how.projection = said.projection;
   how.latitude = said.latitude;
   how.place = said.place;

@@ -55,7 +55,8 @@ inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "sho
                             *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height", *kSwipe = "swipe-side",
                             *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
                             *kEncoding = "elevation-encoding", *kStyle = "object-style", *kStyleOver = "classes",
-                            *kPlace = "place", *kCluster = "cluster";
+                            *kPlace = "place", *kCluster = "cluster", *kOtherBody = "other-body", *kTitle = "title",
+                            *kAttribution = "attribution";
 // Kinds of a layer.
 inline constexpr const char *kHeights = "heights", *kImagery = "imagery", *kObjects = "objects", *kModel = "model";
 inline constexpr std::array kEncodings = {"terrain-rgb", "terrarium"};

@@ -91,10 +91,14 @@ std::string source_of(const Reader& reader, JsonFields& fields, bool needed) {
   return found_from(source, reader.folder);
 }
 
-void read_look(const Json& layer, JsonFields& fields, bool& shown, double& opacity) {
-  if (const auto at = layer.find(kShown); at != layer.end()) {
-    at->is_boolean() ? shown = at->get<bool>() : fields.fail<bool>(kShown, "takes true or false");
+void read_flag(const Json& layer, JsonFields& fields, const char* name, bool& flag) {
+  if (const auto at = layer.find(name); at != layer.end()) {
+    at->is_boolean() ? flag = at->get<bool>() : fields.fail<bool>(name, "takes true or false");
   }
+}
+
+void read_look(const Json& layer, JsonFields& fields, bool& shown, double& opacity) {
+  read_flag(layer, fields, kShown, shown);
   if (fields.has(kOpacity)) opacity = fields.number(kOpacity);
   if (!(opacity >= 0.0 && opacity <= 1.0)) opacity = fields.fail<double>(kOpacity, "takes 0 to 1");
 }
@@ -116,6 +120,9 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   JsonFields fields(layer, where);
   image.source.address = source_of(reader, fields, false);
   read_look(layer, fields, image.look.shown, image.look.opacity);
+  read_flag(layer, fields, kOtherBody, image.source.other_body);
+  if (fields.has(kTitle)) image.source.remote.name = fields.text(kTitle);
+  if (fields.has(kAttribution)) image.source.remote.attribution = fields.text(kAttribution);
   read_word(fields, kDaylight, daylight_words(), image.look.daylight);
   read_word(fields, kAlpha, alpha_words(), image.look.alpha);
   if (fields.has(kBrightness)) image.look.tone.brightness = fields.number(kBrightness);
@@ -127,8 +134,8 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   if (const Status sane = check_look(image.look); !sane) reader.fail(sane.error().message);
   std::vector<std::string> words;
   for (const auto& [name, value] : layer.items()) {
-    constexpr std::array kOwn = {kKind,   kSource, kShown,      kOpacity,  kDaylight, kAlpha,
-                                 kHeight, kSwipe,  kBrightness, kContrast, kGamma};
+    constexpr std::array kOwn = {kKind,  kSource,     kShown,    kOpacity, kDaylight,  kAlpha, kHeight,
+                                 kSwipe, kBrightness, kContrast, kGamma,   kOtherBody, kTitle, kAttribution};
     if (is_among(kOwn, name)) continue;
     if (!is_among(kSourceNames, name)) throw ProjectFault(fmt::format("{}: there is no field \"{}\"", where, name));
     const bool file = name == "colormap" && value.is_string() && !has_named_map(value.get<std::string>());
@@ -267,5 +274,13 @@ Status read_project(const CLI::App& command, SceneOptions& options) {
 }
 
 Status read_project(const fs::path& file, SceneOptions& options) { return read(file, nullptr, options); }
+
+Result<LayerOption> read_image_layer(const Json& layer, const fs::path& folder, const std::string& where) {
+  try {
+    return read_image({.file = where, .folder = folder}, layer, where);
+  } catch (const ProjectFault& fault) {
+    return Error{fault.what()};
+  }
+}
 
 }  // namespace terrella

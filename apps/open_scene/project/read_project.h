@@ -1,6 +1,9 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/open_scene/project/project_paths.h"
@@ -15,5 +18,10 @@ namespace terrella {
 
 /// The same for a project file without a command line. thread: main
 [[nodiscard]] Status read_project(const std::filesystem::path& file, SceneOptions& options);
+
+/// Reads an image layer of a project. Paths are seen from `folder`. The error begins with `where` and names the field.
+/// thread: main
+[[nodiscard]] Result<LayerOption> read_image_layer(const nlohmann::json& layer, const std::filesystem::path& folder,
+                                                   const std::string& where);
 
 }  // namespace terrella

@@ -150,6 +150,9 @@ void put_look(OrderedJson& json, bool shown, double opacity) {
 OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const fs::path& folder) {
   OrderedJson json = {{kKind, kImagery}};
   put_source(json, source, folder);
+  if (source.remote.name) json[kTitle] = *source.remote.name;
+  if (source.remote.attribution) json[kAttribution] = *source.remote.attribution;
+  put(json, kOtherBody, source.other_body, false);
   put_look(json, look.shown, look.opacity);
   put_word(json, kDaylight, look.daylight, Daylight::both, daylight_words());
   put_word(json, kAlpha, look.alpha, AlphaFrom::own, alpha_words());

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <system_error>
 #include <utility>
 
 #include "apps/process/user_folder.h"
+#include "apps/viewer/bodies/body_names.h"
 #include "apps/viewer/draw/drawing_file.h"
 #include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/screenshot.h"
@@ -77,10 +77,7 @@ std::optional<std::filesystem::path> drawings_file(const std::string& body) {
   const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
   if (!folder) return std::nullopt;
   if (body == earth().name) return *folder / "drawings.geojson";
-  std::string name = body;
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.'; }, '_');
-  return *folder / fmt::format("drawings-{}.geojson", name);
+  return *folder / fmt::format("drawings-{}.geojson", body_file_word(body));
 }
 
 }  // namespace terrella

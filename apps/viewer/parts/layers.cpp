@@ -299,10 +299,10 @@ void Layers::watch_tiles(const FrameStats& stats) {
   }
 }
 
-void Layers::open(std::filesystem::path file) {
+void Layers::open(SourceOptions said) {
   const Globe& globe = context_.globe;
   const auto place = pick(globe.view(context_.window.framebuffer()), globe.ground(), context_.middle_px());
-  files_.add(std::move(file), place.value_or(Geodetic{}));
+  files_.add(std::move(said), place.value_or(Geodetic{}));
 }
 
 std::vector<std::shared_ptr<GrowingCut>> Layers::take_opened() {
@@ -310,6 +310,10 @@ std::vector<std::shared_ptr<GrowingCut>> Layers::take_opened() {
   while (auto opened = files_.poll()) {
     if (!*opened) {
       context_.messages.report(opened->error().message);
+      continue;
+    }
+    if ((*opened)->other_body) {
+      other_bodies_.push_back(*std::move((*opened)->other_body));
       continue;
     }
     std::ranges::move((*opened)->cuts, std::back_inserter(cuts));
@@ -342,22 +346,22 @@ void Layers::follow_view(Viewport picture) {
 
 bool Layers::cancel() {
   if (!files_.busy()) return false;
-  files_.leave_off();
+  (void)files_.leave_off();
   return true;
 }
 
 void Layers::add(OpenedFile file) {
   std::optional<ObjectFile> features = std::move(file.features);
-  const std::filesystem::path path = file.path;
+  const SourceOptions said = file.said;
   std::optional<GeoRect> part = add_row(std::move(file));
-  if (features) part = around(part, add_row({.path = path, .what = *std::move(features)}));
+  if (features) part = around(part, add_row({.said = said, .what = *std::move(features)}));
   if (part) fly_over(context_, *part);
 }
 
 std::optional<GeoRect> Layers::add_row(OpenedFile file) {
-  LayerRow row{.name = shown_name(file.path)};
-  row.source.address = file.path.string();
-  row.objects = {.file = file.path.string(), .model_place = file.model_place};
+  const std::string path = file.said.address.with_secrets();
+  LayerRow row{.name = shown_name(file.said), .source = file.said};
+  row.objects = {.file = path, .model_place = file.model_place};
   row.read_facts = std::move(file.read_facts);
   std::string told = "Added " + row.name + "; L shows the layers";
   Status added = Done{};
@@ -379,7 +383,7 @@ std::optional<GeoRect> Layers::add_row(OpenedFile file) {
   }
   const std::optional<GeoRect> part = row.bounds;
   insert(std::move(row));
-  const Status kept = remember_opened(std::array{file.path.string()});
+  const Status kept = remember_opened(std::array{path});
   say(kept ? told : kept.error().message);
   return part;
 }

@@ -26,10 +26,14 @@ class Layers : public Panel {
   Layers(const ViewerContext& context, std::vector<LayerRow> rows, std::optional<ElevationSource> heights,
          const SourceOptions& files, std::vector<LayerSwitch> switches);
 
-  /// Opens a file in the background and adds it as a layer. A model stands in the middle of the picture.
-  void open(std::filesystem::path file);
+  /// Opens a file or an address in the background and adds it as a layer. A model stands in the middle of the picture.
+  void open(SourceOptions said);
   /// Adds the files that are open by now as layers. Call this once per frame. Returns the cuts of their pictures.
   [[nodiscard]] std::vector<std::shared_ptr<GrowingCut>> take_opened();
+  /// Files of another body than the globe's that were to be opened, once.
+  [[nodiscard]] std::vector<OtherBodyFile> take_other_bodies() { return std::exchange(other_bodies_, {}); }
+  /// Opens no further file. Returns those that are not open yet.
+  std::vector<SourceOptions> leave_off() { return files_.leave_off(); }
 
   /// Shows the failures of tiles in their rows, and reports the first of each row. Call this once per frame.
   void watch_tiles(const FrameStats& stats);
@@ -106,6 +110,7 @@ class Layers : public Panel {
   std::vector<LayerRow> rows_;
   std::optional<ElevationSource> heights_;  ///< kept while the heights are hidden
   DroppedFiles files_;
+  std::vector<OtherBodyFile> other_bodies_;
   std::vector<LayerSwitch> switches_;
   ValueQuery value_;
   bool open_wish_ = false;

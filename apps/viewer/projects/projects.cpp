@@ -9,6 +9,7 @@
 #include "apps/open_scene/project/write_project.h"
 #include "apps/process/console.h"
 #include "apps/process/user_folder.h"
+#include "apps/viewer/bodies/body_names.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/tools/kept_json.h"
@@ -35,7 +36,7 @@ void Projects::open(const fs::path& project) {
   SceneOptions scene;
   const Status read = read_project(project, scene);
   if (!read) return context_.messages.report(read.error().message);
-  next_ = project;
+  leave_for({.project = project});
 }
 
 void Projects::take_keyboard() {
@@ -74,8 +75,8 @@ void Projects::draw_fields() {
   save_now = ImGui::Button(replaces_.empty() ? "Save###save" : "Replace###save") || entered() || save_now;
   tip("Saves layers, looks, view and time. terrella view and terrella render open the file.");
   beside_if_room("New");
-  if (ImGui::Button("New") || entered()) next_.emplace();
-  tip("Leaves this scene for the Earth as at the first start.");
+  if (ImGui::Button("New") || entered()) leave_for({.body = context_.globe.options().body, .afresh = true});
+  tip("Leaves this scene for the globe of its body as at the first start.");
   ImGui::Checkbox("Restore at the next start", &restore_);
   tip("Without a file, the program then starts with the scene that was last open.");
   write_wrapped("Ctrl + O opens a project. Addresses with a password or a key are not saved.", true);
@@ -113,12 +114,20 @@ void Projects::keep_session() {
   std::string text = project_text(describe_(), {}).text;
   if (text == kept_) return;
   kept_ = std::move(text);
-  if (const Status saved = write_kept_text(*file, kept_); !saved) say(saved.error().message);
+  Status saved = write_kept_text(*file, kept_);
+  if (saved) saved = write_kept_text(*session_file(context_.globe.options().body), kept_);
+  if (!saved) say(saved.error().message);
 }
 
 std::optional<fs::path> session_file() {
   const auto folder = user_folder("XDG_STATE_HOME", ".local/state");
   return folder ? std::optional(*folder / "session.terrella") : std::nullopt;
+}
+
+std::optional<fs::path> session_file(const Body& body) {
+  const auto file = session_file();
+  if (!file) return std::nullopt;
+  return file->parent_path() / fmt::format("session-{}.terrella", body_file_word(body.name));
 }
 
 }  // namespace terrella

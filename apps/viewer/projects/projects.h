@@ -9,6 +9,7 @@
 
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/viewer/parts/part.h"
+#include "apps/viewer/projects/next_scene.h"
 
 namespace terrella {
 
@@ -24,11 +25,13 @@ class Projects : public Panel {
 
   /// Leaves this scene for that of a project. A project that cannot be read is reported, and the scene stays.
   void open(const std::filesystem::path& project);
-  /// The project that replaces this scene; empty for the Earth as at the first start. Nullopt: none does.
-  [[nodiscard]] const std::optional<std::filesystem::path>& next() const { return next_; }
-  void stay() { next_.reset(); }  ///< no project replaces this scene
+  /// Leaves this scene for another one.
+  void leave_for(NextScene next) { next_ = std::move(next); }
+  /// The scene that replaces this one. Nullopt: none does.
+  [[nodiscard]] const std::optional<NextScene>& next() const { return next_; }
+  void stay() { next_.reset(); }  ///< no scene replaces this one
   [[nodiscard]] bool restores() const { return restore_; }
-  /// Saves the scene for the next start, if the user wants it and the scene has changed.
+  /// Saves the scene for the next start, and as that of its body, if the user wants it and the scene has changed.
   void keep_session();
 
   [[nodiscard]] bool changed() const override { return next_.has_value(); }
@@ -45,12 +48,14 @@ class Projects : public Panel {
   std::string project_;
   std::array<char, 1024> text_{};  ///< text in the line for the file
   std::string replaces_;           ///< an existing file that the next click on Save replaces
-  std::optional<std::filesystem::path> next_;
+  std::optional<NextScene> next_;
   std::string kept_;  ///< text of the session file, as far as this window wrote it
   bool restore_;
 };
 
 /// session.terrella in $XDG_STATE_HOME/terrella or ~/.local/state/terrella; nullopt without such a folder. thread: any
 [[nodiscard]] std::optional<std::filesystem::path> session_file();
+/// session-moon.terrella there: the scene that the Moon, as an example, last had. thread: any
+[[nodiscard]] std::optional<std::filesystem::path> session_file(const Body& body);
 
 }  // namespace terrella
