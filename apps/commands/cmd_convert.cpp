@@ -32,18 +32,18 @@ struct ConvertCommand {
 };
 
 void print_summary(const ConvertCommand& command, const ConvertSummary& summary) {
-  const TileGrid& grid = summary.info.grid;
+  const int tile_px = summary.info.grid.tile_px;
   if (command.json) {
-    const nlohmann::ordered_json result{{"output", command.to},        {"input", command.from},
-                                        {"tiles", summary.tiles},      {"bytes", summary.bytes},
-                                        {"blank", summary.blank},      {"tile_size", grid.tile_px},
-                                        {"min_level", grid.min_level}, {"max_level", grid.max_level}};
+    const nlohmann::ordered_json result{{"output", command.to},           {"input", command.from},
+                                        {"tiles", summary.tiles},         {"bytes", summary.bytes},
+                                        {"blank", summary.blank},         {"tile_size", tile_px},
+                                        {"min_level", summary.min_level}, {"max_level", summary.max_level}};
     // Paths may contain bytes that are not UTF-8.
     print_result("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  print_result("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB{}\n", command.to, summary.tiles, grid.tile_px,
-               grid.min_level, grid.max_level, static_cast<double>(summary.bytes) * 1e-6,
+  print_result("{}: {} tiles of {} pixels, levels {} to {}, {:.1f} MB{}\n", command.to, summary.tiles, tile_px,
+               summary.min_level, summary.max_level, static_cast<double>(summary.bytes) * 1e-6,
                summary.blank > 0 ? fmt::format("; {} empty tiles left out", summary.blank) : "");
 }
 

@@ -68,6 +68,7 @@ struct ViewOptions {
   bool first_run = false;
   std::string message;
   bool restored = false;            ///< the scene is that of the last session
+  bool hold_session = false;        ///< ViewerOptions::hold_session
   std::vector<SourceOptions> open;  ///< files and addresses that become layers
 };
 
@@ -80,14 +81,19 @@ bool names_no_scene(const CLI::App& command) {
   });
 }
 
-/// Takes the scene of a session file. A file that cannot be read is kept under another name. False without a scene.
-bool take_session(const std::optional<std::filesystem::path>& file, ViewOptions& options) {
+/// Takes the scene of a session file. A file that cannot be read, or is not of the body, is kept under another name.
+/// False without a scene.
+bool take_session(const std::optional<std::filesystem::path>& file, ViewOptions& options, const Body* body = nullptr) {
   std::error_code failed;
   if (!file || !std::filesystem::exists(*file, failed)) return false;
   SceneOptions scene = options.scene;
   const Status read = read_project(*file, scene);
   if (!read) {
     options.message = set_aside(*file, read.error().message);
+    return false;
+  }
+  if (body != nullptr && scene.base.body && are_two_bodies(*scene.base.body, *body)) {
+    options.message = set_aside(*file, file->string() + ": it is of " + body_phrase(*scene.base.body));
     return false;
   }
   scene.size = options.scene.size;
@@ -256,6 +262,7 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
                                      .map = wanted.map.value_or(options.kept.map && !wanted.unlit),
                                      .kept = options.kept,
                                      .units = options.units.value_or(options.kept.units),
+                                     .hold_session = options.hold_session,
                                      .first_run = options.first_run,
                                      .message = first_message(options, *scene),
                                      .open = options.open};
@@ -284,7 +291,7 @@ using LeftScenes = std::map<std::string, SceneOptions>;
 void go_on_with(const Body& body, const LeftScenes& left, ViewOptions& options) {
   const auto known = left.find(body.name);
   if (known == left.end()) {
-    if (options.kept.restore) (void)take_session(session_file(body), options);
+    options.restored = options.kept.restore && take_session(session_file(body), options, &body);
     return;
   }
   const Viewport window = options.scene.size;
@@ -300,7 +307,7 @@ Result<ViewOptions> next_options(const ViewOptions& options, const NextScene& wa
   next.scene = new_scene(options.scene, window.framebuffer(), wanted.body);
   next.full_screen = false;  // the window is as the user left it
   next.first_run = false;
-  next.restored = false;
+  next.restored = next.hold_session = false;
   next.message.clear();
   next.open = wanted.layers;
   if (const auto file = settings_file()) next.kept = load_settings(*file).settings;
@@ -335,14 +342,17 @@ int view(ViewOptions options) {
   while (explored->next) {
     NextScene& wanted = *explored->next;
     options.units = explored->units;
-    left.insert_or_assign(explored->scene.base.body->name, explored->scene);
+    const std::string left_body = explored->scene.base.body->name;
+    options.hold_session ? (void)left.erase(left_body) : (void)left.insert_or_assign(left_body, explored->scene);
     auto next = next_options(options, wanted, **window, left);
     auto later = next ? explore(**window, *next) : Result<Explored>(next.error());
+    if (!later && StopSignals::came()) return fail("view", later.error().message);
     if (!later && wanted.project.empty() && !std::exchange(wanted.afresh, true)) {  // a body opens in any case
-      const auto file = session_file(wanted.body);
+      const bool from_file = next && next->restored;
       const std::string why = later.error().message;
       next = next_options(options, wanted, **window, left);
-      next->message = file ? set_aside(*file, why) : why;
+      next->message = from_file ? set_aside(*session_file(wanted.body), why) : why;
+      next->hold_session = true;
       later = explore(**window, *next);
     }
     options = next ? *next : options;

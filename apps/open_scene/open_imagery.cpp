@@ -158,10 +158,11 @@ Result<std::shared_ptr<TileSource>> open_any_tiles(const SourceOptions& said, co
                                          : ": it is not in Web Mercator by what it says of itself, as --projection "
                                            "says; leave that out")};
   }
-  if (mercator) return tiles;
-  info.grid.projection = options.projection.value_or(info.grid.projection);
-  info.grid.latitude = options.latitude.value_or(info.grid.latitude);
   info.attribution = options.remote.attribution.value_or(info.attribution);
+  if (!mercator) {
+    info.grid.projection = options.projection.value_or(info.grid.projection);
+    info.grid.latitude = options.latitude.value_or(info.grid.latitude);
+  }
   if (info.grid == (*tiles)->info().grid && info.attribution == (*tiles)->info().attribution) return tiles;
   return std::shared_ptr<TileSource>(std::make_shared<DescribedSource>(*std::move(tiles), std::move(info)));
 }

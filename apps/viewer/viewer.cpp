@@ -41,6 +41,7 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   graticule_.is_on() = options.scene.graticule.value_or(options.kept.graticule);
   map_.is_on() = options.map;
   ui_.use_units(options.units);
+  if (options.hold_session) projects_.hold_session();
   if (options.kept.panel) modes_.toggle();
   if (options.kept.layers) layers_.toggle();
   saved_ = options.kept;

@@ -54,6 +54,7 @@ struct ViewerOptions {
   bool map = true;          ///< show the map, if there is one of the body
   KeptSettings kept = {};   ///< settings from the file
   LengthUnits units = LengthUnits::metric;
+  bool hold_session = false;             ///< the kept session stays as it is until the scene changes
   bool first_run = false;                ///< true: show a hint
   std::string message = {};              ///< first message; may be empty
   std::vector<SourceOptions> open = {};  ///< files and addresses that become layers
@@ -121,7 +122,8 @@ class Viewer {
   void keep_settings();
   void print_at_rest();
   void open_file(const std::filesystem::path& file);
-  void leave_for_body(const Body& body, std::vector<SourceOptions> files);
+  [[nodiscard]] bool may_leave();
+  bool open_on_globe(const Body& body, std::vector<SourceOptions> files);
   void add_data(const CatalogueEntry& entry);
 
   Window& window_;
@@ -146,10 +148,12 @@ class Viewer {
   OpenDialog open_{context_, [this](const std::filesystem::path& file) { open_file(file); }};
   Projects projects_{context_, [this] { return scene(); }, [this] { return draw_.text(); }, options_.scene.project,
                      options_.kept.restore};
-  BodyPanel body_{context_, [this](const Body& body) { leave_for_body(body, {}); }};
+  BodyPanel body_{context_, [this](const Body& body) {
+                    if (may_leave()) projects_.leave_for({.body = body});
+                  }};
   BodyQuestion question_{
       context_,
-      {.open_globe = [this](const Body& body, auto files) { leave_for_body(body, std::move(files)); },
+      {.open_globe = [this](const Body& body, auto files) { return open_on_globe(body, std::move(files)); },
        .add_here = [this](SourceOptions file) { layers_.open(std::move(file)); }}};
   CataloguePanel catalogue_{context_, options_.scene.base.offline,
                             [this](const CatalogueEntry& entry) { add_data(entry); }};

@@ -49,16 +49,27 @@ void Viewer::open_file(const std::filesystem::path& file) {
   is_project(file.string()) ? projects_.open(file) : layers_.open({.address = file.string()});
 }
 
-// Files that are not open yet go along with one that is of the body.
-void Viewer::leave_for_body(const Body& body, std::vector<SourceOptions> files) {
-  if (!files.empty()) std::ranges::move(layers_.leave_off(), std::back_inserter(files));
+// False, with a message, if drawings or files that are being opened would be lost.
+bool Viewer::may_leave() {
+  panel_frames_ = kPanelFrames;  // shows the message
+  if (!draw_.may_quit()) return false;
+  if (layers_.job().empty()) return true;
+  messages_.say("A file is still being opened. Wait for it, or leave it out with Esc.");
+  return false;
+}
+
+// Files that are not open yet go along with those that the user sends to the body.
+bool Viewer::open_on_globe(const Body& body, std::vector<SourceOptions> files) {
+  if (!draw_.may_quit()) return false;
+  std::ranges::move(layers_.leave_off(), std::back_inserter(files));
   projects_.leave_for({.body = body, .layers = std::move(files)});
+  return true;
 }
 
 // Data of another body go to the globe of that body.
 void Viewer::add_data(const CatalogueEntry& entry) {
-  if (are_two_bodies(entry.body, globe_.options().body)) return leave_for_body(entry.body, {entry.said});
-  layers_.open(entry.said);
+  if (!are_two_bodies(entry.body, globe_.options().body)) return layers_.open(entry.said);
+  if (may_leave()) projects_.leave_for({.body = entry.body, .layers = {entry.said}});
 }
 
 std::vector<LayerSwitch> Viewer::switches() {

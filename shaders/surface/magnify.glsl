@@ -9,12 +9,14 @@ vec4 cubic_weights(float f) {
 Imagery bicubic_tap(Cell cell, vec2 p) {
   vec3 at = slot_point(cell, p);
   vec2 texel = at.xy * texels.y - 0.5;
-  ivec3 first = ivec3(ivec2(floor(texel)) - 1, int(at.z + 0.5));
+  ivec2 first = ivec2(floor(texel)) - 1, last = ivec2(int(texels.y) - 1);
+  int slot = int(at.z + 0.5);
   vec4 across = cubic_weights(fract(texel.x)), down = cubic_weights(fract(texel.y));
   vec4 sum = vec4(0.0), least = vec4(1.0), most = vec4(0.0);
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      vec4 value = texelFetch(tiles_precise, first + ivec3(column, row, 0), 0);
+      ivec2 place = clamp(first + ivec2(column, row), ivec2(0), last);
+      vec4 value = texelFetch(tiles_precise, ivec3(place, slot), 0);
       sum += across[column] * down[row] * value;
       least = min(least, value);
       most = max(most, value);

@@ -1,4 +1,4 @@
-// Patches so near that a pixel lies within one or two texels: one tap in full precision, or with BICUBIC five.
+// Patches so near that a pixel lies within one or two texels: one tap in full precision, or with BICUBIC sixteen.
 void main() {
   Cell cell = cell_at(window_point);
 #if defined(BICUBIC)

@@ -8,6 +8,7 @@
 
 #include "streaming/convert/part_file.h"
 #include "streaming/convert/tile_order.h"
+#include "streaming/convert/web_tiles.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/output/tile_writer.h"
 #include "streaming/cut/output/work_folder.h"
@@ -49,6 +50,11 @@ class Conversion {
     if (!order) return cannot_write(claim_.output, order.error());
     if (Status listed = list(*order); !listed) return listed.error();
     if (Status copied = copy(*order, *folder / "output"); !copied) return copied.error();
+    const OutputKind kind = output_kind(claim_.output);
+    const bool web = kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
+    const int first_level = web ? zoom_of_roots(summary_.info.grid) : 0;
+    summary_.min_level = levels_.least + first_level;
+    summary_.max_level = levels_.most + first_level;
     return summary_;
   }
 
@@ -87,7 +93,7 @@ class Conversion {
 
   [[nodiscard]] Status copy_tile(const TileId& id, const fs::path& part) {
     const auto tile = source_->read(id);
-    if (!tile && (tile.error().kind == MissingKind::blank || tile.error().kind == MissingKind::absent)) {
+    if (!tile && tile.error().kind == MissingKind::blank) {
       ++summary_.blank;
       return Done{};
     }
@@ -95,23 +101,38 @@ class Conversion {
       return Error{
           fmt::format("{}: level {}, column {}, row {}: {}", options_.from.string(), id.level, id.x, id.y, why)};
     };
+    if (!tile && tile.error().kind == MissingKind::absent) {
+      return refuse("this tile is listed but is not there (" + tile.error().why +
+                    "); put it back, or remove the link or entry that names it");
+    }
     if (!tile) return refuse(tile.error().why + "; ‹verify› says more");
     if (tile->number_scale != 1.0 || tile->number_offset != 0.0) {
       return refuse(
           "the numbers of this tile have a scale of their own, which only this file can state; convert what it was "
-          "made "
-          "from, or copy the file");
+          "made from, or copy the file");
     }
-    if (Status made = make_writer(*tile, part); !made) return made;
+    const ImageFormat format = sniff_format(tile->bytes);
+    formats_.add(format);
+    const OutputKind kind = output_kind(claim_.output);
+    if (formats_.mixed && (kind == OutputKind::mbtiles || kind == OutputKind::folder)) {
+      const bool folder = kind == OutputKind::folder;
+      return refuse(
+          fmt::format("this tile is {}, others are {}, and {} has one format for all tiles; name an output "
+                      "that ends in {}",
+                      extension_of(format), extension_of(formats_.first), folder ? "a folder" : "an MBTiles file",
+                      folder ? ".gpkg" : ".gpkg or .pmtiles"));
+    }
+    if (Status made = make_writer(part); !made) return made;
+    levels_.add(id.level);
     ++summary_.tiles;
     summary_.bytes += std::ssize(tile->bytes);
     return writer_->put(id, tile->bytes);
   }
 
-  /// Makes the writer at the first tile, which tells the format of a set that does not state it.
-  [[nodiscard]] Status make_writer(const EncodedTile& first, const fs::path& part) {
+  /// Makes the writer at the first tile, whose format is that of the set, whatever the set states.
+  [[nodiscard]] Status make_writer(const fs::path& part) {
     if (writer_) return Done{};
-    if (summary_.info.format == ImageFormat::unknown) summary_.info.format = sniff_format(first.bytes);
+    summary_.info.format = formats_.common(summary_.info.format);
     auto writer =
         make_tile_writer({.output = claim_.output,
                           .part = part,
@@ -128,6 +149,8 @@ class Conversion {
   const OutputClaim claim_;
   const std::unique_ptr<TileSource> source_;
   std::unique_ptr<TileWriter> writer_;
+  TileFormats formats_;
+  ZoomRange levels_;
   ConvertSummary summary_;
 };
 

@@ -20,17 +20,19 @@ struct ConvertOptions {
 };
 
 struct ConvertSummary {
-  TileSetInfo info;        ///< description of the new set
+  TileSetInfo info;        ///< description of the new set; its format is that of the first tile
   std::int64_t tiles = 0;  ///< squeezed tiles included
   std::int64_t bytes = 0;  ///< sum of these tiles
   std::int64_t blank = 0;  ///< empty tiles, which were left out
+  int min_level = 0;       ///< coarsest level with a tile, as the new set counts levels
+  int max_level = 0;       ///< finest such level
 };
 
 /// Writes a tile set in another format, without decoding a tile: each tile keeps its place and its bytes, the set its
 /// name, attribution and bounds. Equal inputs give equal bytes. The output gets its name when it is complete. Memory
 /// does not grow with the number of tiles. Fails if `to` exists without `force`, or if the format has no place for the
-/// set: MBTiles and PMTiles take pictures in Web Mercator alone. The error names the input or output, and a cure.
-/// Blocks. thread: any
+/// set: MBTiles and PMTiles take pictures in Web Mercator alone, MBTiles and folders one format of pictures. The error
+/// names the input or output, and a cure. Blocks. thread: any
 [[nodiscard]] Result<ConvertSummary> convert(const ConvertOptions& options);
 
 }  // namespace terrella

@@ -82,7 +82,7 @@ class MbtilesWriter : public TileWriter {
         {"maxzoom", std::to_string(zooms_.most)},
         {"attribution", info.attribution},
         {"body", info.body},
-        {"type", layer_type(info)},
+        {"type", layer_type(info.format)},
         {"scheme", "tms"},
         {kCutKeyField, setup_.mark},
     };

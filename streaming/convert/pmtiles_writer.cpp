@@ -40,7 +40,7 @@ struct Statements {
     made.reserve(6);
     for (const char* sql :
          {"SELECT start, length FROM contents WHERE hash = ?1", "INSERT INTO contents VALUES (?1, ?2, ?3)",
-          "INSERT INTO tiles VALUES (?1, ?2, ?3)", "SELECT place FROM placed WHERE start = ?1",
+          "INSERT INTO tiles VALUES (?1, ?2, ?3)", "SELECT place, start FROM placed WHERE start = ?1",
           "INSERT INTO placed VALUES (?1, ?2)", "INSERT INTO runs VALUES (?1, ?2, ?3, ?4, ?5)"}) {
       auto statement = database.prepare(sql);
       if (!statement) return statement.error();
@@ -95,6 +95,7 @@ class PmtilesWriter : public TileWriter {
   [[nodiscard]] Status put(const TileId& id, std::span<const std::byte> bytes) override {
     const TileId web{.level = id.level + zoom_of_roots_, .x = id.x, .y = id.y};
     zooms_.add(web.level);
+    formats_.add(sniff_format(bytes));
     const auto start = store(bytes);
     if (!start) return start.error();
     ++header_.addressed_tiles;
@@ -274,7 +275,7 @@ class PmtilesWriter : public TileWriter {
     const TileSetInfo& info = setup_.info;
     nlohmann::ordered_json object{{"name", info.name.empty() ? setup_.output.stem().string() : info.name},
                                   {"attribution", info.attribution},
-                                  {"type", layer_type(info)},
+                                  {"type", layer_type(formats_.common(info.format))},
                                   {kCutKeyField, setup_.mark}};
     if (!info.body.empty()) object["body"] = info.body;
     return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -294,7 +295,7 @@ class PmtilesWriter : public TileWriter {
     header_.min_level = zooms_.least;
     header_.max_level = zooms_.most;
     header_.bounds = web_bounds(setup_.info.grid);
-    header_.tile_type = tile_type_of(setup_.info.format);
+    header_.tile_type = tile_type_of(formats_.common(setup_.info.format));
     header_.clustered = true;
     if (Status appended = archive.append(*packed); !appended) return appended;
     if (Status appended = archive.append(leaves_, {.offset = 0, .length = leaves_.size()}); !appended) return appended;
@@ -329,6 +330,7 @@ class PmtilesWriter : public TileWriter {
   const std::filesystem::path scratch_path_;
   const int zoom_of_roots_;
   ZoomRange zooms_;
+  TileFormats formats_;
   PmtilesHeader header_;
   PartFile contents_, sorted_, leaves_;
   bool in_order_ = true;           ///< tile numbers have ascended so far

@@ -40,7 +40,7 @@ GeoRect web_bounds(const TileGrid& grid) {
   return bounds;
 }
 
-const char* layer_type(const TileSetInfo& info) { return info.format == ImageFormat::jpeg ? "baselayer" : "overlay"; }
+const char* layer_type(ImageFormat format) { return format == ImageFormat::jpeg ? "baselayer" : "overlay"; }
 
 Error no_tiles_to_write(const std::filesystem::path& output) {
   return Error{

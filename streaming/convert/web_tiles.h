@@ -21,7 +21,7 @@ namespace terrella {
 [[nodiscard]] GeoRect web_bounds(const TileGrid& grid);
 
 /// The layer's type in the metadata: a baselayer if its tiles have no transparency, else an overlay.
-[[nodiscard]] const char* layer_type(const TileSetInfo& info);
+[[nodiscard]] const char* layer_type(ImageFormat format);
 
 /// Levels that have tiles.
 struct ZoomRange {
@@ -32,6 +32,22 @@ struct ZoomRange {
     most = std::max(most, zoom);
   }
   [[nodiscard]] bool empty() const { return most < 0; }
+};
+
+/// Formats of the tiles. Tiles that are no pictures are not counted.
+struct TileFormats {
+  ImageFormat first = ImageFormat::unknown;
+  bool mixed = false;
+  void add(ImageFormat format) {
+    if (format == ImageFormat::unknown) return;
+    if (first == ImageFormat::unknown) first = format;
+    mixed = mixed || format != first;
+  }
+  /// The format of all tiles, `unknown` if they differ, `stated` if none is a picture.
+  [[nodiscard]] ImageFormat common(ImageFormat stated) const {
+    if (mixed) return ImageFormat::unknown;
+    return first == ImageFormat::unknown ? stated : first;
+  }
 };
 
 [[nodiscard]] Error no_tiles_to_write(const std::filesystem::path& output);

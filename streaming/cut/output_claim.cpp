@@ -109,7 +109,7 @@ DatabaseRules rules_of(OutputKind kind) {
 
 Status check_database(const OutputClaim& claim, const fs::path& there, const DatabaseRules& rules) {
   const auto unreadable = [&](const SqlError& error) {
-    return stays(claim, fmt::format("is a file that cannot be read as a {} ({})", rules.name, error.message));
+    return stays(claim, fmt::format("is no {} that can be read ({})", rules.name, error.message));
   };
   Result<SqliteReader, SqlError> reader = SqliteReader::open(there, kMaxTileSetJsonBytes);
   if (!reader) return unreadable(reader.error());
@@ -176,9 +176,10 @@ Status check_folder(const OutputClaim& claim, const fs::path& there) {
   if (fs::is_empty(there, failed)) return Done{};
   const auto description = read_file(there / kTileSetFile, kMaxTileSetJsonBytes);
   const std::optional<std::string> mark = description ? read_cut_key(as_text(*description)) : std::nullopt;
-  if (!mark)
+  if (!mark) {
     return stays(
-        claim, fmt::format("is a folder with other things in it (no {} of a tile set that they wrote)", kTileSetFile));
+        claim, fmt::format("is a folder with other things in it (no {} that `cut` or `convert` wrote)", kTileSetFile));
+  }
   for (fs::directory_iterator entry(there, failed), end; !failed && entry != end; entry.increment(failed)) {
     if (is_own_entry(*entry)) continue;
     return stays(claim, fmt::format("is a folder with \"{}\" in it, which is no part of a tile set",

@@ -12,8 +12,8 @@ namespace terrella {
 struct OutputClaim {
   std::filesystem::path output;
   std::vector<std::filesystem::path> images;  ///< inputs: pictures of a cut, the set of a conversion
-  std::string mark;                           ///< cut_mark()
-  bool force = false;                         ///< CutOptions::force
+  std::string mark;                           ///< cut_mark(), or the mark that all conversions share
+  bool force = false;                         ///< CutOptions::force or ConvertOptions::force
 };
 
 /// Decides if the claim may replace `there`, which has, or had a moment ago, the output's name. Follows links.

@@ -18,6 +18,7 @@ LEVELS = 4
 KINDS = ("tiles", "set.gpkg", "set.mbtiles", "set.pmtiles")
 FIELDS = ("name", "attribution", "body")  # kept by each format
 ONE_COLOUR = png(TILE_PX, TILE_PX)
+BEGINS_AS_JPEG = b"\xff\xd8\xff\xe0 as a JPEG picture begins"
 INFO = {"version": 1, "name": "Of the \"test\"", "attribution": "nobody \u2013 © 2026", "projection": "web-mercator",
         "tile_px": TILE_PX, "min_level": 0, "max_level": LEVELS - 1, "format": "png", "body": "moon",
         "bounds": [-180, -85.05112877980659, 180, 85.05112877980659]}
@@ -174,6 +175,48 @@ class Convert(ProgramTest):
             self.assertEqual((said["tiles"], said["blank"]), (len(planet()) - 1, 1))
             self.assertIn(f"converting into {name}: 100 %", done.stderr)
             self.assertEqual(tiles_of(self.folder / name), {tile: data for tile, data in planet().items() if tile != (2, 1, 1)})
+
+    def test_a_tile_that_is_listed_but_not_there_is_no_empty_tile(self):
+        (self.folder / "source" / "2" / "1" / "1.png").unlink()
+        (self.folder / "source" / "2" / "1" / "1.png").symlink_to("moved-away.png")
+        for name in KINDS:
+            self.assert_fails(FAILED, "convert", "source", name,
+                              says=["source: level 2, column 1, row 1", "not there", "1.png", "put it back"])
+        self.assert_nothing_but("source")
+
+    def test_pictures_of_several_formats_need_a_set_that_can_mix_them(self):
+        mixed = {**planet(), (2, 1, 1): BEGINS_AS_JPEG}
+        self.write("source/2/1/1.png", BEGINS_AS_JPEG)
+        for source in "source", "set.gpkg", "set.pmtiles":
+            for name in "set.gpkg", "again.pmtiles", "set.pmtiles":
+                if name != source:
+                    self.assert_done("convert", source, name, "--force")
+                    self.assertEqual(tiles_of(self.folder / name), mixed)
+            fields, metadata, _ = pmtiles.contents((self.folder / "again.pmtiles").read_bytes())
+            self.assertEqual((fields[16], json.loads(metadata)["type"]), (0, "overlay"))
+            for name, cures in ("out", ".gpkg"), ("out.mbtiles", ".gpkg or .pmtiles"):
+                self.assert_fails(FAILED, "convert", source, name,
+                                  says=[f"{source}: level 2, column 1, row 1", "jpg", "png", cures])
+        self.assert_nothing_but("again.pmtiles", "set.gpkg", "set.pmtiles", "source")
+
+    def test_the_format_is_that_of_the_bytes_and_not_of_the_names(self):
+        write_folder(self.folder / "misnamed", {(0, 0, 0): BEGINS_AS_JPEG})
+        self.assert_done("convert", "misnamed", "tiles")
+        self.assertEqual((self.folder / "tiles" / "0" / "0" / "0.jpg").read_bytes(), BEGINS_AS_JPEG)
+        self.assert_done("convert", "misnamed", "set.pmtiles")
+        self.assertEqual(pmtiles.contents((self.folder / "set.pmtiles").read_bytes())[0][16], pmtiles.JPEG)
+
+    def test_the_summary_states_the_levels_with_tiles(self):
+        shutil.rmtree(self.folder / "source" / "0")
+        shutil.rmtree(self.folder / "source" / str(LEVELS - 1))
+        for name in KINDS:
+            said = json.loads(self.assert_done("convert", "source", name, "--json").stdout)
+            self.assertEqual((said["min_level"], said["max_level"]), (1, LEVELS - 2), name)
+        self.assertIn(f"levels 1 to {LEVELS - 2},", self.assert_done("convert", "source", "tiles", "--force").stdout)
+        write_folder(self.folder / "small", {(1, 3, 5): ONE_COLOUR}, {"root_span_deg": 90})
+        for name, level in ("small.gpkg", 1), ("small.pmtiles", 3):
+            said = json.loads(self.assert_done("convert", "small", name, "--json").stdout)
+            self.assertEqual((said["min_level"], said["max_level"]), (level, level), name)
 
     def test_other_things_are_named(self):
         self.write("notes.txt", b"to do: nothing")

@@ -52,13 +52,15 @@ void BodyQuestion::answer_here() {
   toggle();
 }
 
+// Files of other bodies go along, and are asked about there.
 void BodyQuestion::answer_globe() {
-  const std::vector<OtherBodyFile> files = std::exchange(waiting_.front(), {});
   std::vector<SourceOptions> sources;
-  sources.reserve(files.size());
-  for (const OtherBodyFile& file : files) sources.push_back(file.said);
+  for (const auto& files : waiting_) {
+    for (const OtherBodyFile& file : files) sources.push_back(file.said);
+  }
+  if (!calls_.open_globe(waiting_.front().front().body, std::move(sources))) return;
+  waiting_.clear();
   toggle();
-  calls_.open_globe(files.front().body, std::move(sources));
 }
 
 void BodyQuestion::draw_open(float foot) {

@@ -13,8 +13,9 @@ class BodyQuestion : public Panel {
  public:
   /// Effects of the answers.
   struct Calls {
-    std::function<void(const Body&, std::vector<SourceOptions>)> open_globe;  ///< the files become layers of that body
-    std::function<void(SourceOptions)> add_here;                              ///< the file becomes a layer here
+    /// The files become layers of that body. False if the window stays with its globe.
+    std::function<bool(const Body&, std::vector<SourceOptions>)> open_globe;
+    std::function<void(SourceOptions)> add_here;  ///< the file becomes a layer here
   };
   BodyQuestion(const ViewerContext& context, Calls calls) : Panel(context, "Another body"), calls_(std::move(calls)) {}
 

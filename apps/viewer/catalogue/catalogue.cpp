@@ -118,9 +118,10 @@ Catalogue load_catalogue() {
     all.complaints.emplace_back(broken.what());
   }
   const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
-  std::error_code unknown;
-  if (folder && fs::exists(*folder / "catalogue.json", unknown))
+  std::error_code failed;
+  if (folder && fs::status(*folder / "catalogue.json", failed).type() != fs::file_type::not_found) {
     add(all, read_catalogue_file(*folder / "catalogue.json"));
+  }
   return all;
 }
 

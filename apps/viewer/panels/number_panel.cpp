@@ -97,7 +97,7 @@ void draw_map_choice(NumberFacts& facts, NumberLook& look) {
 }
 
 /// A field with a number. Returns the finite number that was entered in this frame.
-std::optional<double> entered(const char* name, double value) {
+std::optional<double> entered_number(const char* name, double value) {
   const bool done = ImGui::InputDouble(name, &value, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
   return done && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
@@ -137,9 +137,9 @@ void draw_numbers(NumberFacts& facts, NumberLook& look) {
     draw_histogram(*facts.statistics, look);
     draw_rules(*facts.statistics, look);
   }
-  if (const auto low = entered("First value", look.low)) look = dragged(look, false, *low);
-  if (const auto high = entered("Last value", look.high)) look = dragged(look, true, *high);
-  if (const auto step = entered("Contours every", look.contour_step)) look.contour_step = std::max(*step, 0.0);
+  if (const auto low = entered_number("First value", look.low)) look = dragged(look, false, *low);
+  if (const auto high = entered_number("Last value", look.high)) look = dragged(look, true, *high);
+  if (const auto step = entered_number("Contours every", look.contour_step)) look.contour_step = std::max(*step, 0.0);
   tip("Draws contour lines at the multiples of this value. 0 draws none.");
   ImGui::Checkbox("Lit", &look.lit);
   tip("Lets Sun, relief and air change the colours. Otherwise they are those of the legend.");

@@ -10,7 +10,7 @@ namespace terrella {
 
 // Reads the file each time, because another window may have set a bookmark. A damaged file is left unchanged.
 bool BookmarkViews::load() {
-  const auto file = bookmarks_file();
+  const auto file = bookmarks_file(context_.globe.options().body.name);
   if (!file) return true;
   Result<Bookmarks> kept = Bookmarks::load(*file);
   if (!kept) {
@@ -41,7 +41,7 @@ void BookmarkViews::save_as_next() {
 }
 
 void BookmarkViews::keep(const std::string& done) const {
-  const auto file = bookmarks_file();
+  const auto file = bookmarks_file(context_.globe.options().body.name);
   const Status saved =
       file ? bookmarks_.save(*file) : Status(Error{"Bookmarks last until the window closes, because HOME is not set"});
   say(saved ? done : saved.error().message);

@@ -19,6 +19,7 @@ namespace terrella {
 namespace {
 
 constexpr int kSamples = 256;
+constexpr double kFoot_m = 0.3048;
 constexpr std::size_t kAskedAtOnce = 4;                     // each answer is a thread, and may be a request to a server
 constexpr float kProfileWidth = 34.0F, kPlotHeight = 6.0F;  // in text heights
 const ImU32 kPlotGround = IM_COL32(8, 12, 18, 200), kPlotLine = IM_COL32(120, 200, 255, 255),
@@ -103,16 +104,18 @@ void Profile::draw_contents() {
   if (!heights && !shown_numbers_) {
     return write_wrapped("There are no heights and no numbers here. Ctrl + O opens a raster of them.");
   }
-  if (heights) draw_plot("Height", "m", &ProfileSample::height_m);
+  const bool feet = context_.ui.units() == LengthUnits::imperial;
+  if (heights) draw_plot("Height", feet ? "ft" : "m", &ProfileSample::height_m, feet ? kFoot_m : 1.0);
   if (shown_numbers_) draw_plot(shown_numbers_->name.c_str(), shown_numbers_->unit, &ProfileSample::value);
   if (ImGui::Button("Save as CSV") || entered()) save();
   tip("Writes distance, place, height and value of each sample into the folder where the program was started.");
 }
 
-void Profile::draw_plot(const char* name, const std::string& unit, std::optional<double> ProfileSample::*what) {
+void Profile::draw_plot(const char* name, const std::string& unit, std::optional<double> ProfileSample::*what,
+                        double per_unit) {
   const float text = ImGui::GetFontSize();
   const std::optional<Span> span = span_of(samples_, what);
-  const auto written = [&](double value) { return value_text(std::round(value * 1e3) / 1e3, unit); };
+  const auto written = [&](double value) { return value_text(std::round(value / per_unit * 1e3) / 1e3, unit); };
   write_wrapped(span ? fmt::format("{}: {} to {}", name, written(span->low), written(span->high)) : std::string(name));
   const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, kPlotHeight * text};
   ImGui::PushID(name);

@@ -31,7 +31,8 @@ class Profile : public Panel {
 
   void draw_open(float foot) override;
   void draw_contents();
-  void draw_plot(const char* name, const std::string& unit, std::optional<double> ProfileSample::*what);
+  void draw_plot(const char* name, const std::string& unit, std::optional<double> ProfileSample::*what,
+                 double per_unit = 1.0);
   void follow();        ///< makes the samples anew if the path or the layer has changed
   void ask();           ///< asks for the values of the next samples
   void take_answers();  ///< those that have come

@@ -114,6 +114,7 @@ void Projects::keep_session() {
   std::string text = project_text(describe_(), {}).text;
   if (text == kept_) return;
   kept_ = std::move(text);
+  if (std::exchange(held_, false)) return;
   Status saved = write_kept_text(*file, kept_);
   if (saved) saved = write_kept_text(*session_file(context_.globe.options().body), kept_);
   if (!saved) say(saved.error().message);

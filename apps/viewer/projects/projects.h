@@ -33,6 +33,8 @@ class Projects : public Panel {
   [[nodiscard]] bool restores() const { return restore_; }
   /// Saves the scene for the next start, and as that of its body, if the user wants it and the scene has changed.
   void keep_session();
+  /// Leaves the kept session as it is until the scene changes.
+  void hold_session() { held_ = true; }
 
   [[nodiscard]] bool changed() const override { return next_.has_value(); }
   void take_keyboard() override;
@@ -49,6 +51,7 @@ class Projects : public Panel {
   std::array<char, 1024> text_{};  ///< text in the line for the file
   std::string replaces_;           ///< an existing file that the next click on Save replaces
   std::optional<NextScene> next_;
+  bool held_ = false;
   std::string kept_;  ///< text of the session file, as far as this window wrote it
   bool restore_;
 };

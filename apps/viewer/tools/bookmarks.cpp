@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "apps/process/user_folder.h"
+#include "apps/viewer/bodies/body_names.h"
 #include "apps/viewer/panels/readout.h"
 #include "apps/viewer/tools/kept_json.h"
+#include "geo/body.h"
 
 namespace terrella {
 namespace {
@@ -85,9 +87,10 @@ std::optional<int> Bookmarks::free_number() const {
   return {};
 }
 
-std::optional<std::filesystem::path> bookmarks_file() {
+std::optional<std::filesystem::path> bookmarks_file(const std::string& body) {
   const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
-  return folder ? std::optional(*folder / "bookmarks.json") : std::nullopt;
+  if (!folder) return {};
+  return *folder / (body == earth().name ? "bookmarks.json" : "bookmarks-" + body_file_word(body) + ".json");
 }
 
 }  // namespace terrella

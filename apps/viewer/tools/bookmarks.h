@@ -47,8 +47,8 @@ class Bookmarks {
   std::map<int, Bookmark> bookmarks_;
 };
 
-/// Returns $XDG_CONFIG_HOME/terrella/bookmarks.json or ~/.config/terrella/bookmarks.json; nullopt if neither folder is
-/// known.
-[[nodiscard]] std::optional<std::filesystem::path> bookmarks_file();
+/// Returns bookmarks.json in $XDG_CONFIG_HOME/terrella or ~/.config/terrella, or bookmarks-mars.json and the like for
+/// other bodies than the Earth; nullopt if neither folder is known.
+[[nodiscard]] std::optional<std::filesystem::path> bookmarks_file(const std::string& body);
 
 }  // namespace terrella
