@@ -60,8 +60,9 @@ TEST_F(Theme, EveryTextCanBeRead) {
 }
 
 TEST_F(Theme, EveryQuietTextCanBeReadToo) {
-  for (const ImGuiCol item : {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_TitleBg, ImGuiCol_FrameBg,
-                              ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive}) {
+  for (const ImGuiCol item :
+       {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_TitleBg, ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered,
+        ImGuiCol_FrameBgActive, ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive}) {
     EXPECT_GE(least(ImGuiCol_TextDisabled, item), 4.5) << ImGui::GetStyleColorName(item);
   }
 }

@@ -26,13 +26,6 @@ std::string details(const CatalogueEntry& entry) {
                      remote.attribution.value_or(""), entry.licence);
 }
 
-int take_step(ImGuiInputTextCallbackData* data) {
-  int& step = *static_cast<int*>(data->UserData);
-  if (data->EventKey == ImGuiKey_UpArrow) --step;
-  if (data->EventKey == ImGuiKey_DownArrow) ++step;
-  return 0;
-}
-
 }  // namespace
 
 CataloguePanel::CataloguePanel(const ViewerContext& context, bool offline,
@@ -68,22 +61,13 @@ void CataloguePanel::find() {
 }
 
 void CataloguePanel::draw_filter(bool just_opened) {
-  std::array<char, 200> text{};
-  filter_.copy(text.data(), text.size() - 1);
-  if (just_opened) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1.0F);
-  int step = 0;
-  constexpr int kFlags = int(ImGuiInputTextFlags_EnterReturnsTrue) | int(ImGuiInputTextFlags_CallbackHistory);
-  entered_ = ImGui::InputTextWithHint("##filter", "Part of a name, a body or a theme", text.data(), text.size(), kFlags,
-                                      take_step, &step);
-  if (ImGui::IsItemActive()) context_.ui.field_is_ready();
-  const bool edited = filter_ != text.data();
-  filter_ = text.data();
-  want_letters(filter_);
-  if (edited) find();
-  if (step > 0 && marked_ + 1 < found_.size()) ++marked_;
-  if (step < 0 && marked_ > 0) --marked_;
-  reveal_ = step != 0 || edited;
+  const FilterTyped typed = filter_field("Part of a name, a body or a theme", filter_, just_opened);
+  entered_ = typed.entered;
+  if (typed.has_keyboard) context_.ui.field_is_ready();
+  if (typed.edited) find();
+  if (typed.step > 0 && marked_ + 1 < found_.size()) ++marked_;
+  if (typed.step < 0 && marked_ > 0) --marked_;
+  reveal_ = typed.step != 0 || typed.edited;
 }
 
 bool CataloguePanel::draw_entry(const CatalogueEntry& entry, bool marked) const {

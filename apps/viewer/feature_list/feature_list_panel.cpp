@@ -30,26 +30,13 @@ void place_list(float foot) {
   ImGui::SetNextWindowBgAlpha(0.85F);
 }
 
-int take_arrow(ImGuiInputTextCallbackData* data) {
-  int& step = *static_cast<int*>(data->UserData);
-  if (data->EventKey == ImGuiKey_UpArrow) --step;
-  if (data->EventKey == ImGuiKey_DownArrow) ++step;
-  return 0;
-}
-
 void draw_filter(const ListContents& contents, std::string& filter, ListWish& wish) {
-  std::array<char, 200> text{};
-  filter.copy(text.data(), text.size() - 1);
-  if (contents.takes_keyboard) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1.0F);
-  constexpr int kFlags = int(ImGuiInputTextFlags_EnterReturnsTrue) | int(ImGuiInputTextFlags_CallbackHistory);
-  wish.entered = ImGui::InputTextWithHint("##filter", "Part of a name or a value", text.data(), text.size(), kFlags,
-                                          take_arrow, &wish.step);
-  wish.typing = ImGui::IsItemActive();
+  const FilterTyped typed = filter_field("Part of a name or a value", filter, contents.takes_keyboard);
   tip("Arrows choose a row, Enter flies there.");
-  wish.filtered = filter != text.data();
-  filter = text.data();
-  want_letters(filter);
+  wish.entered = typed.entered;
+  wish.typing = typed.has_keyboard;
+  wish.filtered = typed.edited;
+  wish.step = typed.step;
 }
 
 void draw_field_choice(const ListContents& contents, ListWish& wish) {

@@ -124,6 +124,27 @@ bool entered() { return ImGui::IsItemFocused() && ImGui::GetIO().NavVisible && p
 
 bool entered_panel() { return ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) && pressed_enter(); }
 
+FilterTyped filter_field(const char* hint, std::string& filter, bool takes_keyboard) {
+  const auto take_arrow = [](ImGuiInputTextCallbackData* data) {
+    int& step = *static_cast<int*>(data->UserData);
+    if (data->EventKey == ImGuiKey_UpArrow) --step;
+    if (data->EventKey == ImGuiKey_DownArrow) ++step;
+    return 0;
+  };
+  constexpr int kFlags = int(ImGuiInputTextFlags_EnterReturnsTrue) | int(ImGuiInputTextFlags_CallbackHistory);
+  FilterTyped typed;
+  std::array<char, 200> text{};
+  filter.copy(text.data(), text.size() - 1);
+  if (takes_keyboard) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1.0F);
+  typed.entered = ImGui::InputTextWithHint("##filter", hint, text.data(), text.size(), kFlags, take_arrow, &typed.step);
+  typed.has_keyboard = ImGui::IsItemActive();
+  typed.edited = filter != text.data();
+  filter = text.data();
+  want_letters(filter);
+  return typed;
+}
+
 void group(const char* name) {
   ImGui::Spacing();
   ImGui::TextDisabled("%s", name);

@@ -51,6 +51,15 @@ void tip(const std::string& text);
 [[nodiscard]] bool entered();
 /// True if the Enter key was pressed while the panel that is being drawn has the keyboard.
 [[nodiscard]] bool entered_panel();
+/// The user's way with a field that filters a list.
+struct FilterTyped {
+  bool entered = false;       ///< Enter was pressed
+  bool edited = false;        ///< the text has changed
+  bool has_keyboard = false;  ///< the field has it
+  int step = 0;               ///< rows down by the arrows
+};
+/// Draws a field, as wide as the panel, that filters a list. `takes_keyboard` gives it the keyboard.
+[[nodiscard]] FilterTyped filter_field(const char* hint, std::string& filter, bool takes_keyboard);
 /// Draws the title of a group and a line below.
 void group(const char* name);
 void slide(const char* name, double& value, double from, double to, const char* format,

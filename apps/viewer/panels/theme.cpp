@@ -28,9 +28,12 @@ void set_colors(ImVec4* colors) {
   colors[ImGuiCol_FrameBgActive] = field_active;
   colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgCollapsed] = color(0x16212F);
   colors[ImGuiCol_TitleBgActive] = color(0x1B3A5C);
-  colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = button;
-  colors[ImGuiCol_ButtonHovered] = colors[ImGuiCol_HeaderHovered] = hovered;
-  colors[ImGuiCol_ButtonActive] = colors[ImGuiCol_HeaderActive] = active;
+  colors[ImGuiCol_Button] = button;
+  colors[ImGuiCol_ButtonHovered] = hovered;
+  colors[ImGuiCol_ButtonActive] = active;
+  colors[ImGuiCol_Header] = color(0x1E3853);  // rows of lists, with quiet texts
+  colors[ImGuiCol_HeaderHovered] = color(0x23446A);
+  colors[ImGuiCol_HeaderActive] = color(0x1B3A5C);
   colors[ImGuiCol_CheckMark] = colors[ImGuiCol_SliderGrab] = mark;
   colors[ImGuiCol_SliderGrabActive] = colors[ImGuiCol_NavHighlight] = color(0xA8D3FF);
   colors[ImGuiCol_ScrollbarBg] = color(0x0D141F, 0.4F);
