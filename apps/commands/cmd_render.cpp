@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/commands/units_option.h"
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/open_scene/options/shard_option.h"
@@ -18,6 +17,7 @@
 #include "apps/program/commands.h"
 #include "apps/program/film.h"
 #include "apps/program/scene_picture.h"
+#include "apps/program/units_option.h"
 #include "base/hash_mix.h"
 
 namespace terrella {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/commands/raster_facts.h"
-#include "apps/commands/units_option.h"
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/open_imagery.h"
@@ -23,6 +22,7 @@
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
+#include "apps/program/units_option.h"
 #include "apps/viewer/bodies/body_names.h"
 #include "apps/viewer/projects/projects.h"
 #include "apps/viewer/tools/kept_json.h"
@@ -291,7 +291,7 @@ using LeftScenes = std::map<std::string, SceneOptions>;
 void go_on_with(const Body& body, const LeftScenes& left, ViewOptions& options) {
   const auto known = left.find(body.name);
   if (known == left.end()) {
-    options.restored = options.kept.restore && take_session(session_file(body), options, &body);
+    if (options.kept.restore) (void)take_session(session_file(body), options, &body);
     return;
   }
   const Viewport window = options.scene.size;
@@ -348,10 +348,12 @@ int view(ViewOptions options) {
     auto later = next ? explore(**window, *next) : Result<Explored>(next.error());
     if (!later && StopSignals::came()) return fail("view", later.error().message);
     if (!later && wanted.project.empty() && !std::exchange(wanted.afresh, true)) {  // a body opens in any case
-      const bool from_file = next && next->restored;
+      const auto file = session_file(wanted.body);
+      std::error_code failed;
+      const bool kept = next && next->kept.restore && file && std::filesystem::exists(*file, failed);
       const std::string why = later.error().message;
       next = next_options(options, wanted, **window, left);
-      next->message = from_file ? set_aside(*session_file(wanted.body), why) : why;
+      next->message = kept ? set_aside(*file, why) : why;
       next->hold_session = true;
       later = explore(**window, *next);
     }

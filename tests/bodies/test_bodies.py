@@ -183,10 +183,15 @@ class Bodies(WindowTest):
         self.shows(viewer, "earth", "")
         self.moon.unlink()
         self.choose(viewer, "moon")
+        wait_until("a message", lambda: "message" in viewer.layout.panels)
+        viewer.settled()
+        session = self.kept / "terrella" / "session-moon.terrella"
+        self.assertIn("crater.tif", session.read_text(encoding="utf-8"), "kept until the scene changes")
+        viewer.key("g")
         self.shows(viewer, "moon", "")
         self.look(viewer, "gone")
         self.assertEqual(viewer.quit(), 0)
-        kept = (self.kept / "terrella" / "session-moon.terrella.damaged").read_text(encoding="utf-8")
+        kept = session.with_name("session-moon.terrella.damaged").read_text(encoding="utf-8")
         self.assertIn("crater.tif", kept)
 
 
