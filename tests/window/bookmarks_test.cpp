@@ -34,6 +34,14 @@ TEST(Bookmarks, AreThereInTheNextRunToTheLastBit) {
   EXPECT_NEAR(again->at(1)->eye.lat.deg(), 46.1, 1e-13);
 }
 
+TEST(Bookmarks, EachBodyHasAFileOfItsOwn) {
+  const auto earth = bookmarks_file("earth"), mars = bookmarks_file("mars"), other = bookmarks_file("255000,0");
+  ASSERT_TRUE(earth && mars && other) << "HOME is set";
+  EXPECT_EQ(earth->filename(), "bookmarks.json");
+  EXPECT_EQ(mars->filename(), "bookmarks-mars.json");
+  EXPECT_EQ(other->filename(), "bookmarks-255000_0.json");
+}
+
 TEST(Bookmarks, ADamagedFileIsNamedAndOneBadBookmarkLosesNoOther) {
   const test::ScratchFolder folder;
   const auto file = folder.path() / "bookmarks.json";
