@@ -81,6 +81,19 @@ Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path&
   return read_bytes(file, path, std::min(*size, max_bytes));
 }
 
+std::size_t read_at(int descriptor, std::uint64_t offset, std::span<std::byte> into) {
+  std::size_t done = 0;
+  while (done < into.size()) {
+    const ssize_t got = pread(descriptor, into.data() + done, into.size() - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return done;
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  errno = 0;
+  return done;
+}
+
 std::string write_failure(int error_number) {
   if (error_number == 0) return "unknown reason";
   rlimit limit{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -24,6 +25,10 @@ struct FileError {
 /// Reads at most the first `max_bytes` of a regular file. thread: any
 [[nodiscard]] Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path,
                                                                   std::size_t max_bytes);
+
+/// Reads from an open file. Returns the number of bytes: fewer than `into` has at the end of the file, or after an
+/// error, which errno then names; errno is 0 otherwise. thread: any
+[[nodiscard]] std::size_t read_at(int descriptor, std::uint64_t offset, std::span<std::byte> into);
 
 /// Refuses folders, and also pipes, devices and sockets, because reading those may block. Accepts a missing file; the
 /// reader then reports it.

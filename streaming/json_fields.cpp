@@ -73,6 +73,12 @@ int JsonFields::choice(const char* field, const char* first, const char* second,
   return choice(field, std::array{first, second}, otherwise);
 }
 
+bool JsonFields::flag(const char* field, bool otherwise) {
+  const auto found = object_.find(field);
+  if (found == object_.end()) return otherwise;
+  return found->is_boolean() ? found->get<bool>() : fail<bool>(field, "takes true or false");
+}
+
 GeoRect JsonFields::bounds(const char* field) {
   const json* value = find(field, false);
   if (value == nullptr) return {};

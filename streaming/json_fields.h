@@ -33,6 +33,8 @@ class JsonFields {
   /// Returns `otherwise` if the field is missing. Without `otherwise` the field is required.
   int integer(const char* field, std::optional<int> otherwise);
   double number(const char* field);  ///< required
+  /// Returns `otherwise` if the field is missing. A null is refused.
+  bool flag(const char* field, bool otherwise);
   /// Reads one of a few words and returns its index among them.
   int choice(const char* field, std::span<const char* const> words, std::optional<int> otherwise);
   /// Reads one of two words, as 0 or 1.

@@ -58,14 +58,7 @@ Status PartFile::append(const PartFile& from, ByteRange range) {
 
 Result<std::vector<std::byte>> PartFile::read(const ByteRange& range) const {
   std::vector<std::byte> bytes(range.length);
-  std::size_t known = 0;
-  while (known < bytes.size()) {
-    const ssize_t more =
-        pread(file_, bytes.data() + known, bytes.size() - known, static_cast<off_t>(range.offset + known));
-    if (more < 0 && errno == EINTR) continue;
-    if (more <= 0) return cannot_write(output_, more < 0 ? errno : EIO);
-    known += static_cast<std::size_t>(more);
-  }
+  if (read_at(file_, range.offset, bytes) < bytes.size()) return cannot_write(output_, errno != 0 ? errno : EIO);
   return bytes;
 }
 

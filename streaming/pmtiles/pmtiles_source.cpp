@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "streaming/file_bytes.h"
 #include "streaming/pmtiles/pmtiles_set.h"
 #include "streaming/pmtiles/tile_number.h"
 #include "streaming/tile_lister.h"
@@ -34,15 +35,8 @@ class OpenFile {
   /// The range is at most as long as the file.
   [[nodiscard]] Result<std::vector<std::byte>> read(const ByteRange& range) const {
     std::vector<std::byte> bytes(range.length);
-    std::size_t known = 0;
-    while (known < bytes.size()) {
-      const ssize_t more =
-          pread(descriptor_, bytes.data() + known, bytes.size() - known, static_cast<off_t>(range.offset + known));
-      if (more < 0 && errno == EINTR) continue;
-      if (more < 0) return Error{fmt::format("it cannot be read: {}", std::strerror(errno))};
-      if (more == 0) break;
-      known += static_cast<std::size_t>(more);
-    }
+    const std::size_t known = read_at(descriptor_, range.offset, bytes);
+    if (errno != 0) return Error{fmt::format("it cannot be read: {}", std::strerror(errno))};
     bytes.resize(known);
     return bytes;
   }

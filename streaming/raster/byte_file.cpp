@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "streaming/file_bytes.h"
+
 namespace terrella {
 namespace {
 
@@ -23,15 +25,7 @@ class LocalFile : public ByteFile {
   [[nodiscard]] std::uint64_t size() const override { return size_; }
 
   [[nodiscard]] std::size_t read_at(std::uint64_t offset, std::span<std::byte> into) const override {
-    std::size_t done = 0;
-    while (done < into.size() && offset + done < size_) {
-      const ssize_t got =
-          ::pread(descriptor_, into.data() + done, into.size() - done, static_cast<off_t>(offset + done));
-      if (got < 0 && errno == EINTR) continue;
-      if (got <= 0) break;
-      done += static_cast<std::size_t>(got);
-    }
-    return done;
+    return offset < size_ ? terrella::read_at(descriptor_, offset, into) : 0;
   }
 
  private:

@@ -163,15 +163,7 @@ class LocalTest(ArchiveTest):
 
 def directory_lengths(data):
     """The lengths in a directory, read with nothing of the writer."""
-    values, value, shift = [], 0, 0
-    for byte in data:
-        value |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
-            values.append(value)
-            value = shift = 0
-    count = values[0]
-    return values[1 + 2 * count:1 + 3 * count]
+    return [length for _, _, length, _ in pmtiles.parsed_directory(data)]
 
 
 class RemoteTest(ArchiveTest):

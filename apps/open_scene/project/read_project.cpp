@@ -91,14 +91,8 @@ std::string source_of(const Reader& reader, JsonFields& fields, bool needed) {
   return found_from(source, reader.folder);
 }
 
-void read_flag(const Json& layer, JsonFields& fields, const char* name, bool& flag) {
-  if (const auto at = layer.find(name); at != layer.end()) {
-    at->is_boolean() ? flag = at->get<bool>() : fields.fail<bool>(name, "takes true or false");
-  }
-}
-
-void read_look(const Json& layer, JsonFields& fields, bool& shown, double& opacity) {
-  read_flag(layer, fields, kShown, shown);
+void read_look(JsonFields& fields, bool& shown, double& opacity) {
+  shown = fields.flag(kShown, shown);
   if (fields.has(kOpacity)) opacity = fields.number(kOpacity);
   if (!(opacity >= 0.0 && opacity <= 1.0)) opacity = fields.fail<double>(kOpacity, "takes 0 to 1");
 }
@@ -119,8 +113,8 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   LayerOption image;
   JsonFields fields(layer, where);
   image.source.address = source_of(reader, fields, false);
-  read_look(layer, fields, image.look.shown, image.look.opacity);
-  read_flag(layer, fields, kOtherBody, image.source.other_body);
+  read_look(fields, image.look.shown, image.look.opacity);
+  image.source.other_body = fields.flag(kOtherBody, false);
   if (fields.has(kTitle)) image.source.remote.name = fields.text(kTitle);
   if (fields.has(kAttribution)) image.source.remote.attribution = fields.text(kAttribution);
   read_word(fields, kDaylight, daylight_words(), image.look.daylight);
@@ -157,7 +151,7 @@ void read_heights(const Reader& reader, const Json& layer, const std::string& wh
   fields.refuse_others(kKnown);
   options.elevation = source_of(reader, fields, true);
   double opacity = 1.0;
-  read_look(layer, fields, options.elevation_shown, opacity);
+  read_look(fields, options.elevation_shown, opacity);
   if (const std::string name = fields.text(kEncoding); !name.empty()) {
     options.elevation_encoding = rgb_encoding(name);
     if (!options.elevation_encoding) fields.fail<int>(kEncoding, "takes terrain-rgb or terrarium");
@@ -176,7 +170,7 @@ ObjectsOption read_object_layer(const Reader& reader, const Json& layer, const s
     const Result<FeatureStyle> sane = FeatureStyle::parse(objects.style_over, where + ": \"classes\"");
     if (!sane) throw ProjectFault(sane.error().message);
   }
-  read_look(layer, fields, objects.shown, objects.opacity);
+  read_look(fields, objects.shown, objects.opacity);
   if (fields.has(kCluster)) {
     objects.cluster_px = fields.number(kCluster);
     const bool sane =

@@ -53,9 +53,7 @@ Result<CatalogueEntry> read_entry(const Json& json, const fs::path& folder, cons
                        .licence = needed_text(fields, kLicence)};
   for (const char* name : {"source", "attribution", kBody}) (void)needed_text(fields, name);
   if (!fields.has("max-level")) fields.fail<int>("max-level", "is missing");
-  if (const auto at = json.find(kDates); at != json.end()) {
-    at->is_boolean() ? entry.has_dates = at->get<bool>() : fields.fail<bool>(kDates, "takes true or false");
-  }
+  entry.has_dates = fields.flag(kDates, false);
   if (fields.error()) return *fields.error();
   auto body = parse_body(fields.text(kBody));
   if (!body) return Error{fmt::format("{}: {}", where, body.error().message)};
