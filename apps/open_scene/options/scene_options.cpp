@@ -227,7 +227,13 @@ void set_images(SceneOptions& options, std::vector<LayerOption> images) {
   options.layers = std::move(images);
 }
 
-Url included_relief() { return Url(data_file("relief.gpkg").string()); }
+constexpr const char* kReliefFile = "relief.gpkg";
+
+Url included_relief() { return Url(data_file(kReliefFile).string()); }
+
+bool is_included_relief(const Url& heights) {
+  return std::filesystem::path(heights.with_secrets()).filename() == kReliefFile && heights == included_relief();
+}
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   GlobeOptions globe;

@@ -96,6 +96,8 @@ void add_row_options(CLI::App& command, SourceOptions& source);
 
 /// Address of the heights of the Earth that the program includes. Throws BrokenInstallation. thread: any
 [[nodiscard]] Url included_relief();
+/// thread: any
+[[nodiscard]] bool is_included_relief(const Url& heights);
 
 /// Converts the options for the globe. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);

@@ -167,7 +167,7 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
 
 OrderedJson heights_json(const SceneOptions& scene, const fs::path& folder) {
   OrderedJson json = {{kKind, kHeights}};
-  if (scene.elevation != included_relief()) json[kSource] = seen_from(scene.elevation.with_secrets(), folder);
+  if (!is_included_relief(scene.elevation)) json[kSource] = seen_from(scene.elevation.with_secrets(), folder);
   put(json, kShown, scene.elevation_shown, true);
   for (const char* name : kEncodings) {
     if (scene.elevation_encoding && rgb_encoding(name) == scene.elevation_encoding) json[kEncoding] = name;
