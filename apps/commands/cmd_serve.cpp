@@ -5,7 +5,6 @@
 #include <CLI/Formatter.hpp>
 #include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,11 +41,7 @@ struct ServeCommand {
 
 Status print_addresses(const ServeCommand& command, const HttpServer& server, const std::vector<ServedSet>& sets) {
   if (command.json) {
-    nlohmann::ordered_json result{{"address", server.address() + "/"}, {"port", server.port()}, {"sets", {}}};
-    for (const ServedSet& set : sets) {
-      result["sets"].push_back(nlohmann::ordered_json::parse(addresses_json(set, server.address())));
-    }
-    print_result("{}\n", result.dump(2));
+    print_result("{}\n", addresses_json(sets, server.address(), server.port()));
   } else {
     print_result("{}/\n", server.address());
     for (const ServedSet& set : sets) print_result("{}\n", tile_template(set, server.address()));

@@ -269,15 +269,22 @@ std::string overview_page(std::span<const ServedSet> sets, std::string_view base
   return html + "</html>\n";
 }
 
-std::string addresses_json(const ServedSet& set, std::string_view base) {
-  ordered_json json = addresses(set, base);
-  json["name"] = set.name;
-  return dump(json);
+std::string addresses_json(std::span<const ServedSet> sets, std::string_view base, int port) {
+  ordered_json json{{"address", fmt::format("{}/", base)}, {"port", port}, {"sets", ordered_json::array()}};
+  for (const ServedSet& set : sets) {
+    ordered_json one{{"name", set.name}};
+    one.update(addresses(set, base));
+    json["sets"].push_back(std::move(one));
+  }
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 const char* media_type(const TileSetInfo& info) {
-  if (std::string_view(tile_ending(info)) == "tif") return "image/tiff";
-  switch (info.format) {
+  return info.numbers && info.numbers->floats ? "image/tiff" : media_type(info.format);
+}
+
+const char* media_type(ImageFormat format) {
+  switch (format) {
     case ImageFormat::jpeg:
       return "image/jpeg";
     case ImageFormat::webp:

@@ -27,10 +27,11 @@ namespace terrella {
 /// A page with the addresses of all sets and pictures of their coarsest tiles. It refers to this server alone.
 [[nodiscard]] std::string overview_page(std::span<const ServedSet> sets, std::string_view base);
 
-/// Addresses of a set as a JSON object, for scripts.
-[[nodiscard]] std::string addresses_json(const ServedSet& set, std::string_view base);
+/// Addresses of the server and of all sets as a JSON object on one line, for scripts.
+[[nodiscard]] std::string addresses_json(std::span<const ServedSet> sets, std::string_view base, int port);
 
-/// Media type of the set's tiles.
+/// Media type of the set's tiles, and of a picture.
 [[nodiscard]] const char* media_type(const TileSetInfo& info);
+[[nodiscard]] const char* media_type(ImageFormat format);
 
 }  // namespace terrella

@@ -66,7 +66,7 @@ class Socket {
   Socket& operator=(const Socket&) = delete;
   Socket& operator=(Socket&&) = delete;
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  [[nodiscard]] int release() { return std::exchange(descriptor_, -1); }
+  void release() { descriptor_ = -1; }
 
  private:
   int descriptor_;
@@ -324,7 +324,7 @@ class HttpServer::Work {
   std::mutex mutex_;
   std::condition_variable_any came_;
   std::deque<std::pair<MHD_Connection*, Exchange*>> waiting_;  ///< guarded by mutex_
-  bool is_ending_ = false;                                      ///< guarded by mutex_
+  bool is_ending_ = false;                                     ///< guarded by mutex_
   std::vector<std::jthread> makers_;
 };
 

@@ -83,7 +83,7 @@ Result<const char*> type_of(std::span<const std::byte> bytes, const TileSetInfo&
       !whole) {
     return whole.error();
   }
-  return floats ? media_type(info) : media_type({.format = sniff_format(bytes)});
+  return floats ? media_type(info) : media_type(sniff_format(bytes));
 }
 
 /// The bytes of a tile, made and encoded where the source stores none.

@@ -18,8 +18,8 @@ namespace terrella {
 /// A request of HTTP, with fields as sent. Nothing is decoded.
 struct WebRequest {
   std::string_view method = "GET";
-  std::string_view target;  ///< path and query
-  std::string_view base;    ///< "http://127.0.0.1:8080", which the addresses in descriptions begin with
+  std::string_view target{};  ///< path and query
+  std::string_view base{};    ///< "http://127.0.0.1:8080", which the addresses in descriptions begin with
   std::string_view if_none_match{}, range{}, if_range{};  ///< header fields; empty: not sent
 };
 
