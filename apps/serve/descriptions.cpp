@@ -167,22 +167,23 @@ ordered_json addresses(const ServedSet& set, std::string_view base) {
 
 /// The first tiles of the coarsest level, as pictures in their rows and columns.
 std::string pictures(const ServedSet& set, std::string_view base) {
-  constexpr std::int64_t kMostSide = 8;
-  const TileGrid& grid = set.info().grid;
-  const TilePlaces places = tile_places(grid, grid.min_level);
-  const MatrixSize size = matrix_size(set.info(), grid.min_level);
-  if (places.columns.empty() || set.info().numbers) return {};
-  const TileSpan columns = places.columns.front();
-  const std::int64_t last_column = std::min({columns.last, columns.first + kMostSide - 1, size.columns - 1});
-  const std::int64_t last_row = std::min({places.rows.last, places.rows.first + kMostSide - 1, size.rows - 1});
+  constexpr int kMost = 64;
+  const TileSetInfo& info = set.info();
+  if (info.numbers) return {};
+  const int level = info.grid.min_level;
+  const MatrixSize size = matrix_size(info, level);
   std::string html;
-  for (std::int64_t y = places.rows.first; y <= last_row; ++y) {
-    for (std::int64_t x = columns.first; x <= last_column; ++x) {
+  std::int64_t row = 0;
+  int count = 0;
+  for_each_place(info.grid, level, [&](const TileId& id) {
+    if (count > 0 && id.y != row) html += "<br>\n";
+    row = id.y;
+    if (id.x < size.columns && id.y < size.rows) {
       html += fmt::format("<img alt=\"\" loading=\"lazy\" src=\"{}/{}/{}/{}/{}.{}\">", markup(base), set.name,
-                          grid.min_level + first_zoom(set.info()), x, y, tile_ending(set.info()));
+                          level + first_zoom(info), id.x, id.y, tile_ending(info));
     }
-    html += "<br>\n";
-  }
+    return ++count < kMost;
+  });
   return "<p class=\"tiles\">" + html + "</p>\n";
 }
 

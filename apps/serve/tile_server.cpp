@@ -140,11 +140,11 @@ WebAnswer TileServer::get(const WebRequest& request) const {
 
 WebAnswer TileServer::get_of_set(const ServedSet& set, Parts parts, const WebRequest& request) const {
   if (parts.size() == 1 && parts[0] == "tilejson.json") return description(kJson, tile_json(set, request.base));
+  if (parts.size() > 1 && parts[0] == "wmts") return get_of_wmts(set, parts.subspan(1), request);
   if (parts.size() == 3) return tile(set, {parts[0], parts[1], without_ending(parts[2])}, request);
   if (parts.size() == 4 && parts[0] == "tms") {
     return tile(set, {parts[1], parts[2], without_ending(parts[3]), true}, request);
   }
-  if (parts.size() > 1 && parts[0] == "wmts") return get_of_wmts(set, parts.subspan(1), request);
   return no_such_path();
 }
 

@@ -94,12 +94,12 @@ class Serve(ProgramTest):
         """The red, green and blue of a source as GDAL reads it."""
         path = self.folder / "pixels"
         subprocess.run(["gdal_translate", "-q", "-of", "ENVI", "-b", "1", "-b", "2", "-b", "3", source, path], check=True,
-                       env=ENVIRONMENT | {"GDAL_DEFAULT_WMS_CACHE_PATH": str(self.folder / "wms")}, cwd=self.folder)
+                       capture_output=True, env=ENVIRONMENT | {"GDAL_DEFAULT_WMS_CACHE_PATH": str(self.folder / "wms")}, cwd=self.folder)
         return path.read_bytes()
 
     def picture(self, *source):
         path = self.folder / "picture.png"
-        self.assert_done("render", *source, "-o", path, "--unlit", "--size", "160x160", "--camera", "20,30,9000000",
+        self.assert_done("render", *source, "-o", path, "--unlit", "--size", "160x160", "--camera", "20,-60,6000000",
                          "--cache", "off", "--projection", "web-mercator")
         return path.read_bytes()
 
