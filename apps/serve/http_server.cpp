@@ -37,6 +37,7 @@ constexpr int kBacklog = 1024;
 struct Exchange {
   std::string target;
   WebAnswer answer{};
+  bool is_begun = false;
   bool is_answered = false;
 };
 
@@ -230,6 +231,10 @@ class HttpServer::Work {
   }
 
   [[nodiscard]] MHD_Result reply(MHD_Connection* connection, std::string_view method, Exchange& exchange) {
+    // An answer to the first call, which has the request's head alone, ends the connection: right for one with a body.
+    const bool has_body =
+        !field(connection, "Content-Length").empty() || !field(connection, "Transfer-Encoding").empty();
+    if (!std::exchange(exchange.is_begun, true) && !has_body) return MHD_YES;
     if (!exchange.is_answered) {
       const std::string_view host = field(connection, "Host");
       const std::string base = is_host(host) ? fmt::format("http://{}", host) : listener_.address;
