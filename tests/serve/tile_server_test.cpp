@@ -47,7 +47,7 @@ class TileServerTest : public testing::Test {
 };
 
 TEST_F(TileServerTest, GivesOneTileByEachKindOfAddress) {
-  const TileId tile{.level = 2, .x = 5, .y = 1};  // of 8 columns and 4 rows
+  const TileId tile{.level = 2, .x = 5, .y = 1};  // level 2 has 8 columns and 4 rows
   expect_tile("/geo/2/5/1.png", tile);
   expect_tile("/geo/2/5/1.png?v=1", tile);
   expect_tile("/geo/tms/2/5/2.png", tile);
@@ -56,7 +56,7 @@ TEST_F(TileServerTest, GivesOneTileByEachKindOfAddress) {
       "/wmts?service=WMTS&Request=GetTile&LAYER=geo&TILEMATRIXSET=geo&TILEMATRIX=2&TILEROW=1&TILECOL=5&FORMAT=image%"
       "2Fpng",
       tile);
-  expect_tile("/web/tms/2/3/2.png", {.level = 2, .x = 3, .y = 1});  // of 4 rows
+  expect_tile("/web/tms/2/3/2.png", {.level = 2, .x = 3, .y = 1});  // level 2 has 4 rows
 }
 
 TEST_F(TileServerTest, CountsTheZoomOfTheWebPyramidWhateverTheRootTile) {
