@@ -51,9 +51,8 @@ std::string_view field(MHD_Connection* connection, const char* name) {
 /// True for a host with or without a port, which descriptions may repeat.
 bool is_host(std::string_view host) {
   constexpr std::size_t kMost = 255;
-  return !host.empty() && host.size() <= kMost && std::ranges::all_of(host, [](char c) {
-    return (is_plain_in_paths(c) && c != '/') || c == ':' || c == '[' || c == ']';
-  });
+  return !host.empty() && host.size() <= kMost &&
+         std::ranges::all_of(host, [](char c) { return is_plain_in_addresses(c) || c == ':' || c == '[' || c == ']'; });
 }
 
 class Socket {

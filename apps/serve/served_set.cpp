@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -46,8 +47,7 @@ NamedSet named_set(const std::string& argument) {
 std::string name_of_file(const std::string& path) {
   const fs::path file = fs::path(path).filename().empty() ? fs::path(path).parent_path() : fs::path(path);
   std::string name = file.stem().string();
-  std::ranges::replace_if(
-      name, [](char c) { return !is_plain_in_paths(c) || c == '/'; }, '-');
+  std::ranges::replace_if(name, std::not_fn(is_plain_in_addresses), '-');
   name.erase(0, name.find_first_not_of('.'));
   return name.empty() ? "set" : name;
 }

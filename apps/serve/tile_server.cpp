@@ -139,7 +139,7 @@ WebAnswer TileServer::answer(const WebRequest& request) const {
 
 WebAnswer TileServer::get(const WebRequest& request) const {
   const std::string_view path = request.target.substr(0, request.target.find('?'));
-  if (!path.starts_with('/') || !std::ranges::all_of(path, is_plain_in_paths)) return no_such_path();
+  if (!path.starts_with('/')) return no_such_path();
   const std::vector<std::string_view> parts = parts_of(path);
   if (path == "/") return content("text/html; charset=utf-8", overview_page(sets_, request.base));
   if (parts.front() == "wmts") {

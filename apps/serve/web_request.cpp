@@ -29,9 +29,9 @@ AskedRange part(std::uint64_t first, std::uint64_t last, std::uint64_t file_byte
 
 }  // namespace
 
-bool is_plain_in_paths(char c) {
+bool is_plain_in_addresses(char c) {
   const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-  return letter || (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '_' || c == '-';
+  return letter || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
 }
 
 std::map<std::string, std::string> read_query(std::string_view query) {

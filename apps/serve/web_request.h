@@ -36,8 +36,8 @@ struct WebAnswer {
   std::function<WebAnswer()> later{};
 };
 
-/// True for the characters of paths: letters, digits and "/._-". All other paths lead nowhere, encoded ones included.
-[[nodiscard]] bool is_plain_in_paths(char c);
+/// True for letters, digits and "._-", which need no encoding in an address.
+[[nodiscard]] bool is_plain_in_addresses(char c);
 
 /// Keys in lower case and decoded values of a query. The first of two equal keys counts, and keys after the 64th do
 /// not.

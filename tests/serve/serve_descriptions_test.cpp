@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -45,6 +46,16 @@ TEST(WmtsCapabilities, DescribeTheGridsThatTerrellaReads) {
     expect_same_grid(set.info.grid, info.grid);
     EXPECT_EQ(set.info.body, info.body.empty() ? "earth" : info.body);
     EXPECT_EQ(set.info.format, ImageFormat::png);
+  }
+}
+
+TEST(WmtsCapabilities, NameLevelsByTheZoomOfAddresses) {
+  TileSetInfo info = test::web_info();
+  info.grid.root_span_deg = 90.0;  // 4 columns: zoom 2
+  const auto xml = wmts_capabilities(std::vector{served(info)}, kServer);
+  ASSERT_TRUE(xml.ok());
+  for (const char* zoom : {"2", "3", "4", "5"}) {
+    EXPECT_NE(xml->find(fmt::format("<TileMatrix><ows:Identifier>{}<", zoom)), std::string::npos) << zoom;
   }
 }
 

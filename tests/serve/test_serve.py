@@ -130,6 +130,16 @@ class Serve(ProgramTest):
         self.assertIn("Range", headers["Access-Control-Allow-Headers"])
         self.assertEqual(self.get("/mbt/0/0/0.png", method="DELETE")[0], 405)
 
+    def test_a_connection_carries_several_requests(self):
+        connection = self.server.send(b"".join(b"GET %s HTTP/1.1\r\nHost: x\r\n%s\r\n" % one for one in (
+            (b"/gpkg/9/0/0.png", b""), (b"/picture/0/1/0.jpg", b""), (b"/pmt.pmtiles", b"Range: bytes=0-6\r\n"),
+            (b"/gpkg/0/0/0.png", b"Connection: close\r\n"))))
+        data = b"".join(iter(lambda: connection.recv(65536), b""))
+        self.assertEqual(data.count(b"HTTP/1.1 200"), 2)
+        self.assertEqual(data.count(b"HTTP/1.1 206"), 1)
+        self.assertTrue(data.endswith(TILES[0, 0, 0]))
+        connection.close()
+
     def test_an_archive_is_served_by_ranges(self):
         whole = (self.sets / "set.pmtiles").read_bytes()
         status, body, headers = self.get("/pmt.pmtiles")

@@ -72,6 +72,7 @@ TEST_F(TileServerTest, LeadsNowhereByHostilePaths) {
   const std::string longest = "/geo/" + std::string(4000, '0') + "/0/0.png", too_long = "/" + std::string(5000, 'a');
   for (const std::string_view target : {""sv,
                                         "x"sv,
+                                        "xgeo/0/0/0.png"sv,
                                         "*"sv,
                                         "//"sv,
                                         "/.."sv,
@@ -195,7 +196,7 @@ TEST_F(TileServerTest, StaysWithinTheSetsUnderMutation) {
       "/arc.pmtiles",
       "bytes=10-19",
       "bytes=-5",
-                               "bytes=999-"};
+      "bytes=999-"};
   constexpr std::string_view kPieces[] = {"..",  "/", "%2e", "%", "\0", "-", "9", "99999999999999999999",
                                           "tms", "=", "&",   ","};
   std::mt19937 random(35);
