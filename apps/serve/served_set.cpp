@@ -85,8 +85,14 @@ Result<ServedSet> open_served_set(const std::string& path, std::string name) {
                              address.redacted())};
   }
   if (names_mosaic(address) || is_picture(path)) {
-    auto made = open_imagery({.address = address});
-    if (!made) return Error{made.error().message + "; or ‹cut› it into a tile set and serve that"};
+    auto made = open_any_tiles({.address = address});
+    if (!made) return made.error();
+    if ((*made)->info().numbers) {
+      return Error{
+          fmt::format("{}: its pixels are numbers, of which no pictures are made; ‹cut› it into a tile set of "
+                      "numbers and serve that, or a tile set of pictures",
+                      address.redacted())};
+    }
     return ServedSet{.name = std::move(name), .tiles = *std::move(made), .is_made = true};
   }
   auto stored = open_stored_tile_set(path);

@@ -247,20 +247,25 @@ class Serve(ProgramTest):
             connection.close()
 
     def test_names_and_ends(self):
-        server = Server(self.sets, "set.gpkg", "set.mbtiles", "other=set.pmtiles")
-        self.assertEqual([one["name"] for one in server.told["sets"]], ["set", "set-2", "other"])
+        server = Server(self.sets, "set.gpkg", "set.mbtiles", "other=set.pmtiles", "picture.png")
+        self.assertEqual([one["name"] for one in server.told["sets"]], ["set", "set-2", "other", "picture"])
         self.assertEqual(server.told["sets"][2]["pmtiles"], f"{server.address}/other.pmtiles")
-        open_for_ever = server.send(b"GET / HT")
+        under_way = [server.send(b"GET / HT")]
         self.assert_fails(FAILED, "serve", self.sets / "set.gpkg", "--port", server.port,
                           says=[str(server.port), "in use", "another port"])
+        under_way += [server.send(b"GET /picture/1/1/0.jpg HTTP/1.1\r\nHost: x\r\n\r\n" * 9) for _ in range(40)]
         self.assertEqual(server.stop(), (DONE, ""))
-        open_for_ever.close()
+        for connection in under_way:
+            connection.close()
 
     def test_what_cannot_be_served_is_refused_with_a_cure(self):
         path = self.sets / "set.gpkg"
+        subprocess.run(["gdal_translate", "-q", "-ot", "Float32", "-b", "1", self.sets / "picture.png",
+                        self.folder / "numbers.tif"], check=True)
         for arguments, says in (
                 (["http://user:word@127.0.0.1:1/{z}/{x}/{y}.png"], ["server", "terrella preload"]),
                 ([self.folder / "none.gpkg"], ["none.gpkg"]),
+                ([self.folder / "numbers.tif"], ["numbers.tif", "terrella cut"]),
                 ([f"a/b={path}"], ["a/b="]),
                 ([f".a={path}"], [".a", "letters"]),
                 ([f"wmts={path}"], ["wmts", "taken"]),
