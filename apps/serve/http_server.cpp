@@ -55,26 +55,9 @@ bool is_host(std::string_view host) {
          std::ranges::all_of(host, [](char c) { return is_plain_in_addresses(c) || c == ':' || c == '[' || c == ']'; });
 }
 
-class Socket {
- public:
-  explicit Socket(int descriptor) : descriptor_(descriptor) {}
-  ~Socket() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  Socket& operator=(Socket&&) = delete;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-  void release() { descriptor_ = -1; }
-
- private:
-  int descriptor_;
-};
-
 /// A socket that listens, and its address.
 struct Listener {
-  Socket socket;
+  Descriptor socket;
   std::string address{};
   int port = 0;
   bool is_loopback = false;
@@ -92,7 +75,7 @@ const char* cure_of(int error_number) {
 void describe(Listener& listener) {
   sockaddr_storage bound{};
   socklen_t size = sizeof bound;
-  if (getsockname(listener.socket.descriptor(), reinterpret_cast<sockaddr*>(&bound), &size) != 0) return;
+  if (getsockname(listener.socket.number(), reinterpret_cast<sockaddr*>(&bound), &size) != 0) return;
   std::array<char, INET6_ADDRSTRLEN> text{};
   if (bound.ss_family == AF_INET6) {
     const auto& six = reinterpret_cast<const sockaddr_in6&>(bound);
@@ -122,8 +105,8 @@ Result<Listener> listen_at(const HttpServerOptions& options) {
   const int code = getaddrinfo(options.host.c_str(), std::to_string(options.port).c_str(), &hints, &found);
   if (code != 0) return Error{fmt::format("{}: {}; name an address of this machine", options.host, gai_strerror(code))};
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> all(found, freeaddrinfo);
-  Listener listener{.socket = Socket(socket(all->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0))};
-  const int descriptor = listener.socket.descriptor(), on = 1;
+  Listener listener{.socket = Descriptor(socket(all->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0))};
+  const int descriptor = listener.socket.number(), on = 1;
   const bool listens = descriptor >= 0 && setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
                        bind(descriptor, all->ai_addr, all->ai_addrlen) == 0 && listen(descriptor, kBacklog) == 0;
   if (!listens) {
@@ -180,7 +163,7 @@ class HttpServer::Work {
     const unsigned threads = std::max(2U, std::thread::hardware_concurrency());
     daemon_ = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_USE_SUSPEND_RESUME, 0, nullptr, nullptr, on_request, this,
-        MHD_OPTION_LISTEN_SOCKET, listener_.socket.descriptor(), MHD_OPTION_THREAD_POOL_SIZE, threads,
+        MHD_OPTION_LISTEN_SOCKET, listener_.socket.number(), MHD_OPTION_THREAD_POOL_SIZE, threads,
         MHD_OPTION_CONNECTION_LIMIT, std::max(threads, static_cast<unsigned>(connections)),
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, kConnectionBytes, MHD_OPTION_CONNECTION_TIMEOUT, kIdleSeconds,
         MHD_OPTION_URI_LOG_CALLBACK, on_target, this, MHD_OPTION_NOTIFY_COMPLETED, on_completed, this, MHD_OPTION_END);
@@ -262,7 +245,7 @@ class HttpServer::Work {
   /// Changes the answer to 503 if clients leave too much unread.
   [[nodiscard]] MHD_Response* make_response(WebAnswer& answer) {
     if (answer.file) {
-      const int descriptor = dup(answer.file->descriptor());
+      const int descriptor = dup(answer.file->number());
       if (descriptor < 0) return nullptr;
       return MHD_create_response_from_fd_at_offset64(answer.of_file.length, descriptor, answer.of_file.offset);
     }

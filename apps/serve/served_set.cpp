@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -70,12 +69,12 @@ Result<std::string> choose_name(const NamedSet& named, const std::vector<ServedS
 }
 
 /// Opens the file for byte ranges if it is a PMTiles archive.
-Result<std::shared_ptr<const ArchiveFile>> open_archive(const std::string& path) {
+Result<std::shared_ptr<const Descriptor>> open_archive(const std::string& path) {
   const auto head = read_head(path, kPmtilesHeaderBytes);
-  if (!head || !begins_as_pmtiles(*head)) return std::shared_ptr<const ArchiveFile>();
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return Error{fmt::format("{}: cannot be opened: {}", path, std::strerror(errno))};
-  return std::make_shared<const ArchiveFile>(descriptor);
+  if (!head || !begins_as_pmtiles(*head)) return std::shared_ptr<const Descriptor>();
+  auto file = std::make_shared<const Descriptor>(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file->number() < 0) return Error{fmt::format("{}: cannot be opened: {}", path, std::strerror(errno))};
+  return file;
 }
 
 Result<ServedSet> open_served_set(const std::string& path, std::string name) {
@@ -103,8 +102,6 @@ Result<ServedSet> open_served_set(const std::string& path, std::string name) {
 }
 
 }  // namespace
-
-ArchiveFile::~ArchiveFile() { close(descriptor_); }
 
 MatrixSize matrix_size(const TileSetInfo& info, int level) {
   if (info.square && !info.square->levels.empty()) {

@@ -5,30 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "apps/serve/descriptor.h"
 #include "base/result.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
 
-/// A file that is open for reading until the last holder of this object is gone. thread: any
-class ArchiveFile {
- public:
-  explicit ArchiveFile(int descriptor) : descriptor_(descriptor) {}
-  ~ArchiveFile();
-  ArchiveFile(const ArchiveFile&) = delete;
-  ArchiveFile& operator=(const ArchiveFile&) = delete;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
- private:
-  const int descriptor_;
-};
-
 /// A tile set or a raster under a name.
 struct ServedSet {
   std::string name;  ///< in addresses: letters, digits and "._-"
   std::shared_ptr<TileSource> tiles;
-  bool is_made = false;                             ///< tiles are made of a raster on request, which takes milliseconds
-  std::shared_ptr<const ArchiveFile> archive = {};  ///< the whole set as one PMTiles file; null for other kinds
+  bool is_made = false;                            ///< tiles are made of a raster on request, which takes milliseconds
+  std::shared_ptr<const Descriptor> archive = {};  ///< the whole set as one PMTiles file; null for other kinds
 
   [[nodiscard]] const TileSetInfo& info() const { return tiles->info(); }
 };

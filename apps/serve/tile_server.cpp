@@ -194,7 +194,7 @@ WebAnswer TileServer::key_value_pairs(const std::map<std::string, std::string>& 
 
 WebAnswer TileServer::archive(const ServedSet& set, const WebRequest& request) const {
   struct stat facts {};
-  if (fstat(set.archive->descriptor(), &facts) != 0) return content(kText, "the archive cannot be read\n", 500);
+  if (fstat(set.archive->number(), &facts) != 0) return content(kText, "the archive cannot be read\n", 500);
   const auto size = static_cast<std::uint64_t>(facts.st_size);
   WebAnswer answer{.type = "application/octet-stream",
                    .file = set.archive,

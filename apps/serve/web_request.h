@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/serve/served_set.h"
+#include "apps/serve/descriptor.h"
 #include "streaming/byte_range.h"
 
 // thread: any, for all of this header
@@ -28,7 +28,7 @@ struct WebAnswer {
   int status = 200;
   std::string type{};              ///< media type; empty: no content
   std::vector<std::byte> bytes{};  ///< content, unless `file` is set
-  std::shared_ptr<const ArchiveFile> file{};
+  std::shared_ptr<const Descriptor> file{};
   ByteRange of_file{};
   std::string etag{};           ///< with its quotes; empty: none
   std::string content_range{};  ///< empty: none

@@ -24,7 +24,7 @@ class TileServerTest : public testing::Test {
     const int file = open((folder_ / "archive").c_str(), O_RDONLY | O_CLOEXEC);
     std::vector<ServedSet> sets{{.name = "geo", .tiles = geo_},
                                 {.name = "web", .tiles = web_},
-                                {.name = "arc", .tiles = web_, .archive = std::make_shared<ArchiveFile>(file)}};
+                                {.name = "arc", .tiles = web_, .archive = std::make_shared<Descriptor>(file)}};
     server_ = std::make_unique<TileServer>(std::move(sets), [this](const std::string& line) { log_.push_back(line); });
   }
 
