@@ -98,21 +98,27 @@ Result<std::vector<std::byte>, TileFailure> encoded(EncodedTile tile) {
   return *std::move(bytes);
 }
 
-/// A hash of 64 bits. Four lanes take a quarter of the time of std::hash, which every request would wait for.
+/// A hash of 64 bits. Four lanes, each in a register, take a quarter of the time of std::hash, and each request waits
+/// for the hash.
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kPrime = 0x9E3779B185EBCA87;
-  constexpr std::size_t kLanes = 4, kWord = sizeof(std::uint64_t), kStride = kLanes * kWord;
-  std::array<std::uint64_t, kLanes> lanes{1, 2, 3, 4};
+  constexpr std::size_t kWord = sizeof(std::uint64_t), kStride = 4 * kWord;
+  const auto mixed = [](std::uint64_t lane, std::uint64_t word) { return std::rotl((lane ^ word) * kPrime, 31); };
+  const auto word_at = [&](std::size_t at) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, kWord);
+    return word;
+  };
+  std::uint64_t a = 1, b = 2, c = 3, d = 4;
   const std::size_t whole = bytes.size() - bytes.size() % kStride;
   for (std::size_t at = 0; at < whole; at += kStride) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + at + i * kWord, kWord);
-      lanes[i] = std::rotl((lanes[i] ^ word) * kPrime, 31);
-    }
+    a = mixed(a, word_at(at));
+    b = mixed(b, word_at(at + kWord));
+    c = mixed(c, word_at(at + 2 * kWord));
+    d = mixed(d, word_at(at + 3 * kWord));
   }
-  std::uint64_t hash = std::hash<std::string_view>()(as_text(bytes.subspan(whole)));
-  for (const std::uint64_t lane : lanes) hash = std::rotl((hash ^ lane) * kPrime, 31);
+  const std::uint64_t rest = std::hash<std::string_view>()(as_text(bytes.subspan(whole)));
+  const std::uint64_t hash = mixed(mixed(mixed(mixed(a, b), c), d), rest);
   return hash ^ (hash >> 32);
 }
 
