@@ -148,10 +148,11 @@ def _refuse(options: dict[str, Any], *names: str) -> None:
 
 def _gather(client: Client, index_of: dict[str, int], futures: list[Any],
             remarks: dict[_Remark, None]) -> dict[int, dict[str, Any]]:
-    """Takes each result at once, so that the death of the worker that has it costs nothing."""
+    """Results of tasks by index, taken as soon as they are there."""
     results: dict[int, dict[str, Any]] = {}
     try:
         for future, (result, said) in as_completed(futures, with_results=True):
+            future.release()  # else the death of a worker that has it would repeat the task
             results[index_of[future.key]] = result
             remarks.update(dict.fromkeys(said))
     except BaseException:
