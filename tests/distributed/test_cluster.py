@@ -14,7 +14,6 @@ import subprocess
 import tempfile
 import time
 import unittest
-import warnings
 
 import dask
 import servers
@@ -194,12 +193,6 @@ class Errors(ClusterTest):
         with self.assertRaisesRegex(ValueError, "tile-size"):
             run(CLIENT, plan_cut(BLUE_MARBLE, output=output, parts=2, tile_size=7))
         self.assertFalse(output.exists())
-
-    def test_remarks_are_given_once(self):
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            run(CLIENT, plan_cut(BLUE_MARBLE, output=self.folder / "out.gpkg", parts=2, tile_size=64))
-        self.assertEqual([str(warning.message) for warning in caught], [])
 
 
 if __name__ == "__main__":

@@ -42,8 +42,8 @@ class Plans(unittest.TestCase):
         seen, watching = [], [False]
         sys.addaudithook(lambda event, _: seen.append(event) if watching[0] and event.startswith(LOOKS) else None)
         watching[0] = True
-        for plan in plans(parts=100_000):
-            plan.task(99_999)
+        for plan in plans(parts=7000):
+            plan.task(6999)
         watching[0] = False
         self.assertEqual(seen, [])
         watching[0] = True
