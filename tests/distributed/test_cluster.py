@@ -145,7 +145,7 @@ class Preload(ClusterTest):
 
     def test_the_rate_is_that_of_the_cluster(self):
         terrella.preload(self.server.template, output=self.folder / "whole.gpkg", levels=(0, 4), bbox=self.BOX)
-        before, begun, rate = len(self.server.requests()), time.monotonic(), 120
+        before, begun, rate = len(self.server.requests()), time.monotonic(), 80
         self.run_and_kill(self.plan(rate=rate), lambda: len(self.server.requests()) > before + 50)
         seconds, asked = time.monotonic() - begun, len(self.server.requests()) - before
         self.assertEqual(tiles(self.output), tiles(self.folder / "whole.gpkg"))
@@ -179,6 +179,7 @@ class Film(ClusterTest):
         plan = plan_film(**film, output=self.folder / "frames/%02d.png", parts=3)
         report = self.run_and_kill(plan, (self.folder / "frames/film.json").exists)
         self.assertIsNone(report.joined)
+        self.assertEqual([part["frames"] for part in report.parts], [2, 2, 2])
         whole, frames = ({path.name: path.read_bytes() for path in (self.folder / folder).iterdir()}
                          for folder in ("whole", "frames"))
         self.assertEqual(len(whole), 6 + 1)
