@@ -33,14 +33,15 @@ PROJECTIONS = "EPSG:4326", "EPSG:3857", "EPSG:32633"
 
 
 def setUpModule():
-    global CLIENT
+    global CLIENT, CLUSTER
     home = tempfile.mkdtemp(prefix="terrella-dask-")
     unittest.addModuleCleanup(shutil.rmtree, home, ignore_errors=True)
     os.environ["XDG_CACHE_HOME"] = home
-    cluster = LocalCluster(n_workers=WORKERS, threads_per_worker=1, processes=True, dashboard_address=None,
+    CLUSTER = LocalCluster(n_workers=WORKERS, threads_per_worker=1, processes=True, dashboard_address=None,
                            local_directory=home, silence_logs="CRITICAL")
-    unittest.addModuleCleanup(cluster.close)
-    CLIENT = Client(cluster)
+    unittest.addModuleCleanup(CLUSTER.close)
+    CLUSTER.adapt(minimum=WORKERS, maximum=WORKERS, interval="200ms")
+    CLIENT = Client(CLUSTER)
     unittest.addModuleCleanup(CLIENT.close)
 
 
@@ -58,20 +59,16 @@ class ClusterTest(unittest.TestCase):
 
     def run_and_kill(self, plan, has_begun):
         """Runs a plan, and kills one of the workers that have tasks as soon as the work has begun."""
-        pids = CLIENT.run(os.getpid)
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             running = pool.submit(run, CLIENT, plan)
             while not has_begun():
                 self.assertFalse(running.done(), "the work was done before a worker was killed")
                 time.sleep(0.005)
-            busy = [address for address, tasks in CLIENT.processing().items() if tasks and address in pids]
+            pids = {worker.worker_address: worker.pid for worker in CLUSTER.workers.values()}
+            busy = [pids[address] for address, tasks in CLIENT.processing().items() if tasks and pids.get(address)]
             self.assertTrue(busy, "no worker had work when one was to be killed")
-            killed = random.choice(busy)
-            os.kill(pids[killed], signal.SIGKILL)
-            report = running.result()
-        CLIENT.wait_for_workers(WORKERS)
-        self.assertNotIn(pids[killed], CLIENT.run(os.getpid).values())
-        return report
+            os.kill(random.choice(busy), signal.SIGKILL)
+            return running.result()
 
     def assert_nothing_but(self, *names):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), sorted(names))
