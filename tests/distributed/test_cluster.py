@@ -147,7 +147,7 @@ class Preload(ClusterTest):
         seconds, asked = time.monotonic() - begun, len(self.server.requests()) - before
         self.assertEqual(tiles(self.output), tiles(self.folder / "whole.gpkg"))
         self.assertGreaterEqual(asked, len(self.PLACES))
-        burst = rate / 4  # that of all parts together, which may be full at the beginning
+        burst = rate / 4  # all parts together, whose buckets may be full at the beginning
         self.assertLessEqual(asked, rate * seconds + burst)
         self.assert_nothing_but("out.gpkg", "whole.gpkg", "tiles")
 

@@ -7,7 +7,7 @@ import unittest
 
 from terrella.distributed import plan_cut, plan_film, plan_preload
 
-# What a look at files, servers or processes begins with.
+# Events of Python begin so when a program looks at files, servers or processes.
 LOOKS = ("open", "os.", "socket.", "subprocess.", "glob.", "shutil.")
 
 

@@ -36,7 +36,7 @@ _Path = str | os.PathLike[str]
 _Remark = tuple[type[Warning], str]
 
 _MOST_PARTS = 100_000  # as `cut` takes
-_LEAST_RATE = 0.01  # requests a second, as `preload` takes
+_LEAST_RATE = 0.01  # requests per second, as `preload` takes
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Plan:
 
 @dataclasses.dataclass(frozen=True)
 class Report:
-    """What the functions returned: of each task, in the order of their indices, and of the join."""
+    """Values that the functions returned: in the tasks, by ascending index, and in the join."""
 
     parts: list[dict[str, Any]]
     joined: dict[str, Any] | None  # None for a film, which needs no join
