@@ -35,6 +35,7 @@ int run_program(int argc, char** argv) {
   add_info_command(app, exit_code);
   add_merge_command(app, exit_code);
   add_convert_command(app, exit_code);
+  add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
   return run_command_line(app, std::vector<std::string>(argv + 1, argv + argc), exit_code);
 }

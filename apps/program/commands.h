@@ -20,7 +20,11 @@ void add_info_command(CLI::App& app, int& exit_code);
 void add_merge_command(CLI::App& app, int& exit_code);
 void add_preload_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
+void add_serve_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
+
+/// The subcommand `render`, which takes --flight here and always renders a film.
+void add_film_command(CLI::App& app, int& exit_code);
 
 /// The subcommand `render` without a callback; `command` must outlive the parse. Returns the subcommand. thread: main
 CLI::App& add_render_options(CLI::App& app, RenderCommand& command);

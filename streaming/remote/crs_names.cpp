@@ -47,6 +47,15 @@ bool is_web_mercator(std::string_view name) {
   return false;
 }
 
+std::string geographic_crs_urn(std::string_view body, LatitudeKind latitude) {
+  const bool centric = latitude == LatitudeKind::centric;
+  if (body.empty() || body == "earth") return centric ? "" : "urn:ogc:def:crs:OGC:1.3:CRS84";
+  for (const NaifBody& known : kBodies) {
+    if (body == known.name) return fmt::format("urn:ogc:def:crs:IAU:2015::{}{}", known.number, centric ? "02" : "00");
+  }
+  return {};
+}
+
 Result<GeographicCrs> parse_crs(std::string_view name) {
   name = trimmed(name);
   const std::string upper_or_not = lower_case(name);

@@ -21,6 +21,10 @@ struct GeographicCrs {
 /// 104905. The error gives the reason for other systems, and names Web Mercator. thread: any
 [[nodiscard]] Result<GeographicCrs> parse_crs(std::string_view name);
 
+/// URN of a body's system of longitude and latitude, longitude first, for parse_crs(). An empty body is the Earth.
+/// Empty for bodies and latitudes without a registered system. thread: any
+[[nodiscard]] std::string geographic_crs_urn(std::string_view body, LatitudeKind latitude);
+
 /// True for the names of Web Mercator, in the notations of parse_crs(). thread: any
 [[nodiscard]] bool is_web_mercator(std::string_view name);
 

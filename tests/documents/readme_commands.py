@@ -17,7 +17,7 @@ def options(subcommand):
 
 def command_lines(text):
     """The subcommand and the rest of each line `terrella SUBCOMMAND …` of a block that is indented."""
-    for line in re.findall(r"^    (?:.* )?(?:build/)?terrella ((?:view|render|cut|preload|info|merge|convert|bench)\b.*)$", text, re.MULTILINE):
+    for line in re.findall(r"^    (?:.* )?(?:build/)?terrella ((?:view|render|cut|preload|info|merge|convert|serve|bench)\b.*)$", text, re.MULTILINE):
         subcommand, *words = line.replace("'", " ").split()
         yield ((subcommand, words[0]) if subcommand == "bench" and words and words[0].isalpha() else (subcommand,)), words
 

@@ -121,7 +121,7 @@ class Folders(unittest.TestCase):
     def test_folders_of_apps_include_those_that_the_design_says(self):
         rows = re.findall(r'^\| `apps/(\w+)` \|([^|]*)\|$', section(), re.MULTILINE)
         table = {folder: set(re.findall(r'\w+', may)) - {'nothing'} for folder, may in rows}
-        self.assertEqual(set(table), {'commands', 'film', 'flight', 'open_scene', 'preload', 'process'})
+        self.assertEqual(set(table), {'commands', 'film', 'flight', 'open_scene', 'preload', 'process', 'serve'})
         for folder, may in table.items():
             # A subcommand (cmd_*.cpp) is a source of a library above.
             sources = [path for path in (SOURCE / 'apps' / folder).rglob('*.*') if not path.name.startswith('cmd_')]

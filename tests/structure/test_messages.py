@@ -20,7 +20,7 @@ def texts():
 
 class Messages(unittest.TestCase):
     def test_libraries_name_no_option_and_no_command_of_the_program(self):
-        named = re.compile(r'--[a-z]|\bterrella (?:bench|convert|cut|info|merge|preload|render|view)\b')
+        named = re.compile(r'--[a-z]|\bterrella (?:bench|convert|cut|info|merge|preload|render|serve|view)\b')
         self.assertEqual([(place, text) for place, text in texts() if named.search(text)], [])
 
     def test_each_setting_that_a_message_names_has_an_option(self):
