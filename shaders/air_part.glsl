@@ -11,8 +11,8 @@ float mean_density(float above, float over) {
   return abs(apart) < 1e-3 ? exp(-above) : (exp(-above) - exp(-over)) / apart;
 }
 
-// Under the ellipsoid is water, which has no air: seen from this height or more, nothing there has more air than the
-// ellipsoid. Land lies only a few hundred metres under it, and is near such an eye.
+// The tables know the air down to the ellipsoid. Seen from this height or more, what lies under it has no more air: on the
+// Earth it is under water, which has none, and land lies only a few hundred metres under it.
 const float kOverWater_m = 1000.0;
 
 // `way`: from the eye, in the axes of the horizon; `down`: cosine between the way and the vertical at its end. The

@@ -1,11 +1,14 @@
 #include "apps/open_scene/dated_files.h"
 
 #include <fmt/format.h>
-#include <time.h>  // strptime
+#include <locale.h>  // newlocale
+#include <time.h>    // strptime_l
 
-#include <array>
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -60,8 +63,7 @@ Result<std::unique_ptr<TileSource>> open_step(const std::shared_ptr<const DatedS
   return std::unique_ptr<TileSource>(std::make_unique<DatedTiles>(*std::move(tiles), std::move(info), set));
 }
 
-constexpr std::array kPlainFormats = {
-    "%Y-%m-%dT%H-%M-%SZ", "%Y-%m-%dT%H-%M-%S", "%Y-%m-%dT%H-%MZ", "%Y-%m-%dT%H-%M", "%Y-%m-%d", "%Y-%m", "%Y"};
+constexpr std::string_view kPlain = "{time}", kWithFormat = "{time:";
 
 /// The last part of a time that the codes of a format give.
 TimePrecision precision_of(std::string_view format) {
@@ -77,66 +79,94 @@ TimePrecision precision_of(std::string_view format) {
   return has("mbB") ? TimePrecision::month : TimePrecision::year;
 }
 
-/// A format of strptime() for whole names.
+/// A format of strftime() for whole names.
 struct NameFormat {
   std::string text;
-  std::string of_time;  ///< the parts of `text` that placeholders gave
+  TimePrecision precision;
 };
 
-/// The format of names, with `plain` for {time}. The error names the placeholder.
-Result<NameFormat> format_of(std::string_view name, std::string_view plain) {
-  constexpr std::string_view kBeforeFormat = "time:";
-  NameFormat format;
-  const auto add_letters = [&format](std::string_view letters) {
-    for (const char c : letters) format.text.append(c == '%' ? 2 : 1, c);
+/// The format of names with {time:FORMAT}. The error names the placeholder.
+Result<NameFormat> format_of(std::string_view name) {
+  std::string text, of_time;
+  const auto add_letters = [&text](std::string_view letters) {
+    for (const char c : letters) text.append(c == '%' ? 2 : 1, c);
   };
-  for (std::size_t at = name.find("{time"); at != name.npos; at = name.find("{time")) {
+  for (std::size_t at = name.find(kWithFormat); at != name.npos; at = name.find(kWithFormat)) {
     const std::size_t end = std::min(name.find('}', at), name.size() - 1);
     const std::string_view placeholder = name.substr(at + 1, end - at - 1);
-    const std::string fault = is_time_placeholder(placeholder) ? fault_of_time_placeholder(placeholder) : "is unknown";
-    if (!fault.empty()) return Error{fmt::format("{{{}}} {}", placeholder, fault)};
-    const std::string_view given = placeholder == "time" ? plain : placeholder.substr(kBeforeFormat.size());
+    const std::string fault = fault_of_time_placeholder(placeholder);
+    if (!fault.empty()) return Error{fault};
+    const std::string_view format = placeholder.substr(kWithFormat.size() - 1);
     add_letters(name.substr(0, at));
-    format.text += given;
-    format.of_time += given;
+    text += format;
+    of_time += format;
     name.remove_prefix(end + 1);
   }
   add_letters(name);
-  return format;
+  return NameFormat{std::move(text), precision_of(of_time)};
 }
 
-/// The time in a name that fits a format; empty for other names.
-std::string time_in(const std::string& name, const NameFormat& format) {
+/// The time in a name that has a format; empty for other names.
+std::string time_by_format(const std::string& name, const NameFormat& format) {
+  static const locale_t english = ::newlocale(LC_ALL_MASK, "C", nullptr);
   std::tm fields{};
   fields.tm_mday = 1;
-  const char* end = ::strptime(name.c_str(), format.text.c_str(), &fields);
+  const char* end = ::strptime_l(name.c_str(), format.text.c_str(), &fields, english);
   if (end == nullptr || *end != '\0') return {};
-  const auto time =
-      std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::from_time_t(::timegm(&fields)));
-  return time_text(time, precision_of(format.of_time), format.of_time.ends_with('Z'));
+  // strptime() gives the fields of %s in local time, and its zone; those of all others have none.
+  const std::time_t seconds = fields.tm_zone != nullptr ? std::mktime(&fields) : ::timegm(&fields);
+  const auto time = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::from_time_t(seconds));
+  // It takes 31 February, too, and one digit for two.
+  const Result<std::string> written = format_time(time, format.text);
+  return written && *written == name ? time_text(time, format.precision, false) : std::string();
+}
+
+/// The time between the parts of a name before and after {time}; empty for other names.
+std::string time_between(const std::string& name, std::string_view before, std::string_view after) {
+  if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) return {};
+  std::string time = name.substr(before.size(), name.size() - before.size() - after.size());
+  // A name has no colons.
+  const std::size_t clock = std::min(time.find('T'), time.size());
+  std::replace(time.begin() + static_cast<std::ptrdiff_t>(clock), time.end(), '-', ':');
+  return read_named_time(time) ? time : std::string();
+}
+
+using TimeInName = std::function<std::string(const std::string& name)>;
+
+/// Reads times in names by a pattern.
+Result<TimeInName> reader_of(const std::string& pattern) {
+  if (const std::size_t at = pattern.find(kPlain); at != pattern.npos) {
+    const std::string before = pattern.substr(0, at), after = pattern.substr(at + kPlain.size());
+    if (after.find("{time") != after.npos)
+      return Error{"{time} stands alone, or write each {time:FORMAT} with a format"};
+    return TimeInName([before, after](const std::string& name) { return time_between(name, before, after); });
+  }
+  Result<NameFormat> format = format_of(pattern);
+  if (!format) return format.error();
+  return TimeInName([format = *std::move(format)](const std::string& name) { return time_by_format(name, format); });
 }
 
 }  // namespace
 
 bool names_dated_files(const Url& address) {
-  return !is_remote(address) && fs::path(address.with_secrets()).filename().string().find("{time") != std::string::npos;
+  const std::string& text = address.with_secrets();
+  const std::string name = fs::path(text).filename().string();
+  std::error_code failed;
+  return (name.find(kPlain) != name.npos || name.find(kWithFormat) != name.npos) && !is_remote(address) &&
+         !fs::exists(text, failed);
 }
 
 Result<std::vector<DatedFile>> find_dated_files(const fs::path& pattern) {
-  const std::string name = pattern.filename().string();
+  const Result<TimeInName> time_in = reader_of(pattern.filename().string());
+  if (!time_in) return Error{fmt::format("{}: {}", pattern.string(), time_in.error().message)};
   const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
   std::vector<DatedFile> files;
-  for (const char* plain : kPlainFormats) {
-    const Result<NameFormat> format = format_of(name, plain);
-    if (!format) return Error{fmt::format("{}: {}", pattern.string(), format.error().message)};
-    std::error_code failed;
-    for (fs::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed)) {
-      std::string time = time_in(file->path().filename().string(), *format);
-      if (!time.empty()) files.push_back({.time = std::move(time), .file = file->path()});
-    }
-    if (failed) return Error{fmt::format("{}: {}", folder.string(), failed.message())};
-    if (name.find("{time}") == name.npos) break;
+  std::error_code failed;
+  for (fs::directory_iterator file(folder, failed), end; !failed && file != end; file.increment(failed)) {
+    std::string time = (*time_in)(file->path().filename().string());
+    if (!time.empty()) files.push_back({.time = std::move(time), .file = file->path()});
   }
+  if (failed) return Error{fmt::format("{}: {}", folder.string(), failed.message())};
   return files;
 }
 
@@ -165,9 +195,13 @@ Result<std::shared_ptr<TileSource>> open_dated_files(const std::string& name, co
 }
 
 Result<std::shared_ptr<TileSource>> open_dated_caches(const fs::path& cache, const std::string& time) {
-  const auto files =
-      find_dated_files(cache.parent_path() / (cache.stem().string() + ".{time}" + cache.extension().string()));
+  auto files = find_dated_files(cache.parent_path() / (cache.stem().string() + ".{time}" + cache.extension().string()));
   if (!files || files->empty()) return std::shared_ptr<TileSource>();
+  // "2026-06" and "2026-06-01" begin with one instant; the finer text is the better one.
+  std::ranges::sort(*files, std::greater(), [](const DatedFile& file) { return file.time.size(); });
+  std::set<UtcTime> instants;
+  std::erase_if(*files,
+                [&](const DatedFile& file) { return !instants.insert(read_named_time(file.time)->from).second; });
   return open_dated_files(cache.string(), *files, time,
                           [](const fs::path& file) -> Result<std::shared_ptr<TileSource>> {
                             auto tiles = open_tile_set(file);

@@ -21,12 +21,12 @@ struct DatedFile {
 /// Opens the file of one time. thread: any, one at a time
 using OpenDatedFile = std::function<Result<std::shared_ptr<TileSource>>(const std::filesystem::path& file)>;
 
-/// True for a path whose file name has {time} or {time:FORMAT}. thread: any
+/// True for a path whose file name has {time} or {time:FORMAT}, unless there is such a file. thread: any
 [[nodiscard]] bool names_dated_files(const Url& address);
 
 /// Finds the files whose names fit a pattern; maybe none. {time} is a time as 2026-06-01, with hyphens for colons;
-/// {time:FORMAT} has the codes %Y %y %m %b %B %d %j %H %M %S %s %% of strptime, in UTC. The error names the pattern.
-/// thread: any
+/// {time:FORMAT} is one as strftime writes it, in UTC and English, by the codes %Y %y %m %b %B %d %j %H %M %S %s %%.
+/// The error names the pattern. thread: any
 [[nodiscard]] Result<std::vector<DatedFile>> find_dated_files(const std::filesystem::path& pattern);
 
 /// Opens files as one set, whose steps are their times. It starts at the last one at or before `time`, else at the

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -47,7 +48,13 @@ class DescribedSource : public PassedTiles {
   }
 };
 
-Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, const CutProgress& told);
+/// Stops a cut that takes longer than a user waits for the next date.
+CutProgress short_cut() {
+  constexpr std::chrono::seconds kMost(2);
+  return [until = std::chrono::steady_clock::now() + kMost](std::int64_t /*done*/, std::int64_t /*total*/) {
+    return std::chrono::steady_clock::now() < until;
+  };
+}
 
 /// Opens the files of a pattern with {time}. A file of a later time that must be cut shows while it is cut, if the
 /// first one may.
@@ -58,14 +65,16 @@ Result<std::shared_ptr<TileSource>> open_files_of_times(const SourceOptions& opt
   }
   const auto files = find_dated_files(pattern);
   if (!files) return files.error();
-  auto open = [one = options, progress = told, grows = options.cuts != nullptr,
-               is_first = true](const fs::path& file) mutable {
+  auto open = [one = options, first = &told,
+               grows = options.cuts != nullptr](const fs::path& file) mutable -> Result<std::shared_ptr<TileSource>> {
     std::vector<std::shared_ptr<GrowingCut>> cuts;  // the tiles own them
-    if (!std::exchange(is_first, false)) one.cuts = grows ? &cuts : nullptr;
+    const CutProgress* told = std::exchange(first, nullptr);
+    if (told == nullptr) one.cuts = grows ? &cuts : nullptr;
     one.address = Url(file.string());
-    auto tiles = open_named(one, std::exchange(progress, {}));
+    auto tiles = open_any_tiles(one, told != nullptr ? *told : grows ? short_cut() : CutProgress());
     one.opened = nullptr;  // those of the opening end with it
-    return tiles;
+    if (tiles || told != nullptr || !grows) return tiles;
+    return Error{tiles.error().message + "; a file that does not show at once is cut with terrella cut first"};
   };
   return open_dated_files(pattern.string(), *files, options.remote.time, std::move(open));
 }

@@ -130,6 +130,7 @@ class Viewer {
   Globe& globe_;
   ViewerOptions options_;
   bool said_memory_ = false;  ///< the user knows that the driver gives less than --memory
+  std::string said_fault_;    ///< last fault of the globe, which each frame has again
   std::string said_letters_;  ///< last message about letters without a font
   Ui ui_;
   Navigator navigator_;

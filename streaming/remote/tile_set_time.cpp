@@ -68,7 +68,20 @@ std::optional<std::string> text_of_code(char code, const TimeFields& time) {
   }
 }
 
-/// Writes a time by a format. The error is the unknown code.
+bool has_time(std::string_view url) {
+  return url.find("{time}") != std::string_view::npos || url.find("{time:") != std::string_view::npos;
+}
+
+/// The instant that a time names, the last step for "current" and the like; none for "default", which a server may mean
+/// as it likes.
+std::optional<UtcTime> instant_named(const TimeSteps& steps, const std::string& time) {
+  if (names_newest(time)) return steps.last();
+  const auto named = read_named_time(time);
+  return named ? std::optional(named->from) : std::nullopt;
+}
+
+}  // namespace
+
 Result<std::string> format_time(UtcTime time, std::string_view format) {
   const TimeFields fields(time);
   std::string text;
@@ -84,20 +97,6 @@ Result<std::string> format_time(UtcTime time, std::string_view format) {
   }
   return text;
 }
-
-bool has_time(std::string_view url) {
-  return url.find("{time}") != std::string_view::npos || url.find("{time:") != std::string_view::npos;
-}
-
-/// The instant that a time names, the last step for "current" and the like; none for "default", which a server may mean
-/// as it likes.
-std::optional<UtcTime> instant_named(const TimeSteps& steps, const std::string& time) {
-  if (names_newest(time)) return steps.last();
-  const auto named = read_named_time(time);
-  return named ? std::optional(named->from) : std::nullopt;
-}
-
-}  // namespace
 
 UtcTime end_of(const TimeSeries& series) {
   const auto last = read_named_time(time_text(series.last, series.precision, series.has_z));

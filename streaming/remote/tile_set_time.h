@@ -31,6 +31,8 @@ void set_steps(TimeSteps steps, TileSetInfo& info);
 [[nodiscard]] bool is_time_placeholder(std::string_view name);
 /// Reason why a placeholder has no text, which names the unknown code of its FORMAT; empty: it has, or is none of time.
 [[nodiscard]] std::string fault_of_time_placeholder(std::string_view name);
+/// Writes a time in UTC by the codes of strftime %Y %y %m %b %B %d %j %H %M %S %s %%. The error is the unknown code.
+[[nodiscard]] Result<std::string> format_time(UtcTime time, std::string_view format);
 /// Text of a placeholder in an address: TileSetInfo::time, or TileSetInfo::instant in UTC by the codes of strftime
 /// %Y %y %m %b %B %d %j %H %M %S %s %%. Empty if the set has none.
 [[nodiscard]] std::string time_in_url(const TileSetInfo& info, std::string_view name);

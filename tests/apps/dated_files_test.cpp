@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/open_scene/open_imagery.h"
 #include "base/iso_time.h"
 #include "streaming/cache/tile_cache.h"
 
@@ -27,8 +28,9 @@ class DatedFilesTest : public testing::Test {
     fs::create_directories(folder_);
   }
   ~DatedFilesTest() override { fs::remove_all(folder_); }
-  void add(const std::string& name) {
+  void add(const std::string& name, double south_deg = -90.0) {
     TileSetInfo info;
+    info.grid.bounds.south = Angle::degrees(south_deg);
     info.name = "Planet";
     info.grid.max_level = 1;
     EXPECT_TRUE(TileCache::open(folder_ / name, info, "source of the test"));
@@ -43,7 +45,7 @@ TEST_F(DatedFilesTest, AreStepsOfOneSet) {
     add(name);
   }
   const auto newest = open_dated_caches(folder_ / "a.gpkg", "");
-  ASSERT_TRUE(newest && *newest) << newest.error().message;
+  ASSERT_TRUE(newest && *newest);
   EXPECT_EQ((*newest)->info().time, "2026-06-04");
   ASSERT_TRUE((*newest)->info().steps);
   EXPECT_EQ((*newest)->info().steps->count(), 3);
@@ -76,7 +78,8 @@ std::vector<std::string> times_of(const fs::path& pattern) {
 TEST_F(DatedFilesTest, AreFoundByTheirNames) {
   for (const char* name : {"ice_20260601_v2.tif", "ice_20260701_v2.tif", "ice_20261301_v2.tif", "ice_20260701_v3.tif",
                            "ice_20260701_v2.tif.aux.xml", "100%_2026152.tif", "snow_2026-06.tif", "snow_2026-06-02.tif",
-                           "snow_2026-06-02T18-30.tif", "snow_last.tif", "Jun 2026.tif"}) {
+                           "snow_2026-06-02T18-30.tif", "snow_last.tif", "Jun 2026.tif", "ice_20260231_v2.tif",
+                           "ice_2026061_v2.tif", "2026366.tif", "snow_26.tif"}) {
     std::ofstream(folder_ / name) << "a picture";
   }
   using Times = std::vector<std::string>;
@@ -86,10 +89,47 @@ TEST_F(DatedFilesTest, AreFoundByTheirNames) {
   EXPECT_EQ(times_of(folder_ / "{time:%b %Y}.tif"), Times{"2026-06"});
   EXPECT_EQ(times_of(folder_ / "{time:%b} {time:%Y}.tif"), Times{"2026-06"});
   EXPECT_EQ(times_of(folder_ / "none_{time}.tif"), Times{});
+  EXPECT_EQ(times_of(folder_ / "{time:%Y%j}.tif"), Times{}) << "2026 has no day 366";
   const auto unknown = find_dated_files(folder_ / "ice_{time:%Q}.tif");
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("%Q"), std::string::npos) << unknown.error().message;
   EXPECT_FALSE(find_dated_files(folder_ / "no folder" / "{time}.tif"));
+}
+
+TEST_F(DatedFilesTest, SecondsSince1970AreInUtcEverywhere) {
+  const char* before = getenv("TZ");
+  const std::string zone = before == nullptr ? "" : before;
+  setenv("TZ", "America/New_York", 1);
+  tzset();
+  std::ofstream(folder_ / "1780272000.tif") << "a picture";
+  EXPECT_EQ(times_of(folder_ / "{time:%s}.tif"), std::vector<std::string>{"2026-06-01T00:00:00"});
+  before == nullptr ? unsetenv("TZ") : setenv("TZ", zone.c_str(), 1);
+  tzset();
+}
+
+TEST_F(DatedFilesTest, EachHasItsOwnBoundsUnderOneAttribution) {
+  add("a.2026-06-01.gpkg", 10.0);
+  add("a.2026-06-02.gpkg", 20.0);
+  SourceOptions options{.address = Url((folder_ / "a.{time}.gpkg").string())};
+  options.remote.attribution = "The survey";
+  const auto newest = open_any_tiles(options);
+  ASSERT_TRUE(newest) << newest.error().message;
+  EXPECT_EQ((*newest)->info().grid.bounds.south.deg(), 20.0);
+  const auto other = (*newest)->at_time(at("2026-06-01"));
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_EQ((*other)->info().grid.bounds.south.deg(), 10.0);
+  EXPECT_EQ((*other)->info().attribution, "The survey");
+}
+
+TEST_F(DatedFilesTest, CachesHaveMillisecondsAndTheFinerOfTwoTexts) {
+  add("a.2026-06.gpkg", 10.0);
+  add("a.2026-06-01.gpkg", 20.0);
+  add("a.2026-06-02T06-30-00.500Z.gpkg");
+  const auto all = open_dated_caches(folder_ / "a.gpkg", "2026-06-01");
+  ASSERT_TRUE(all && *all);
+  EXPECT_EQ((*all)->info().grid.bounds.south.deg(), 20.0);
+  EXPECT_EQ((*all)->info().steps->count(), 2);
+  EXPECT_EQ((*all)->info().steps->last(), at("2026-06-02T06:30:00.500Z"));
 }
 
 TEST_F(DatedFilesTest, TwoOfOneInstantAreRefused) {

@@ -59,7 +59,7 @@ class Scripts(WindowTest):
                 there = viewer.next_camera()
                 self.assertAlmostEqual(there.lat, lat, delta=0.1)
                 self.assertAlmostEqual(there.lon, lon, delta=0.1)
-        self.assertEqual(viewer.quit(), 0)
+        self.assertEqual(viewer.quit(closing=1), 0)
 
     def test_letters_differ_where_question_marks_would_be_equal(self):
         viewer = self.start_with_places()

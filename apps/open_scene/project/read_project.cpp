@@ -149,7 +149,11 @@ void read_heights(const Reader& reader, const Json& layer, const std::string& wh
   JsonFields fields(layer, where);
   constexpr std::array kKnown = {kKind, kSource, kShown, kEncoding};
   fields.refuse_others(kKnown);
-  options.elevation = fields.has(kSource) ? Url(source_of(reader, fields, true)) : included_relief();
+  try {
+    options.elevation = fields.has(kSource) ? Url(source_of(reader, fields, true)) : included_relief();
+  } catch (const BrokenInstallation& broken) {
+    throw ProjectFault(fmt::format("{}: {}", where, broken.what()));
+  }
   double opacity = 1.0;
   read_look(fields, options.elevation_shown, opacity);
   if (const std::string name = fields.text(kEncoding); !name.empty()) {

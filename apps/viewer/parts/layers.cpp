@@ -357,7 +357,8 @@ void Layers::follow_view(Viewport picture) {
     if (followed && row.clusters) {
       followed = row.clusters->follow(context_.globe, row.id, row.objects.cluster_px, picture);
     }
-    if (!followed) say(followed.error());
+    const std::string fault = followed ? std::string() : followed.error().message;
+    if (fault != std::exchange(row.follow_fault, fault) && !fault.empty()) say(Error{fault});
   }
 }
 

@@ -21,7 +21,6 @@ void Messages::say(const std::string& text) {
 
 void Messages::say(const std::string& text, Clock::duration time) {
   text_ = shown_message(text);
-  is_fault_ = false;
   until_ = Clock::now() + time;
 }
 
@@ -31,23 +30,20 @@ void Messages::say_then(const std::string& text, std::function<void()> act) {
 }
 
 void Messages::say(const Error& fault) {
-  say(fault.message);
-  is_fault_ = true;
+  fault_ = shown_message(fault.message);
+  text_.clear();
 }
 
 void Messages::report(const std::string& problem) {
-  if (!is_fault_) return say(Error{problem});
-  if (text_.find(shown_message(problem)) != text_.npos) return;
-  const bool full = std::ranges::count(text_, '\n') >= kMostLines;
-  say(Error{(full ? text_.substr(text_.find('\n') + 1) : text_) + "\n" + problem});
+  const std::string shown = shown_message(problem);
+  if (fault_.find(shown) != fault_.npos) return;
+  if (std::ranges::count(fault_, '\n') >= kMostLines) fault_.erase(0, fault_.find('\n') + 1);
+  fault_ += fault_.empty() ? shown : "\n" + shown;
 }
 
-bool Messages::close_fault() {
-  if (!is_fault_) return false;
-  text_.clear();
-  is_fault_ = false;
-  return true;
-}
+std::string Messages::text() const { return fault_ + (fault_.empty() || text_.empty() ? "" : "\n") + text_; }
+
+bool Messages::close_fault() { return !std::exchange(fault_, {}).empty(); }
 
 void Messages::begin_frame() {
   if (is_due()) text_.clear();
@@ -59,7 +55,7 @@ void Messages::end_frame() {
 }
 
 double Messages::seconds_left(double most_s) const {
-  if (text_.empty() || is_fault_) return most_s;
+  if (text_.empty()) return most_s;
   return std::clamp(std::chrono::duration<double>(until_ - Clock::now()).count(), 0.001, most_s);
 }
 

@@ -151,11 +151,12 @@ void Search::fly_to(const NamedPlace& place) {
   camera.heading = Angle{};
   camera.pitch = Angle::degrees(-90.0);
   context_.navigator.fly_to(camera, Input::now());
-  if (place.area_km2 == 0.0) mark(place);  // a country has its name on the map
+  const Status marked = place.area_km2 > 0.0 ? Done{} : mark(place);  // a country has its name on the map
+  if (!marked) return say(marked.error());
   say(full_name(place) + (sharp_m > wanted_m ? ". The imagery has no finer detail here; E adds more." : ""));
 }
 
-void Search::mark(const NamedPlace& place) {
+Status Search::mark(const NamedPlace& place) {
   remove_mark();
   const float size_px = kMark_px * context_.window.text_scale();
   ObjectScene scene;
@@ -166,8 +167,9 @@ void Search::mark(const NamedPlace& place) {
                           .priority = 1.0,
                           .heights = HeightMode::clamp_to_ground});
   const Result<LayerId> added = context_.globe.add_objects(std::move(scene));
-  if (!added) return say(added.error());
+  if (!added) return added.error();
   mark_ = *added;
+  return Done{};
 }
 
 void Search::remove_mark() {

@@ -35,7 +35,7 @@ class Search : public Panel {
   [[nodiscard]] std::optional<NamedPlace> draw_field();
   [[nodiscard]] std::optional<NamedPlace> draw_found(bool entered) const;
   void fly_to(const NamedPlace& place);
-  void mark(const NamedPlace& place);
+  Status mark(const NamedPlace& place);
   void remove_mark();
 
   std::filesystem::path file_;
