@@ -26,6 +26,7 @@ WORKERS = 3
 # A task may be on this many workers that die: more than the kills of a test.
 dask.config.set({"distributed.scheduler.allowed-failures": 10, "distributed.worker.profile.enabled": False})
 random.seed(20260611)
+HOME = tempfile.TemporaryDirectory(prefix="terrella-dask-", ignore_cleanup_errors=True)
 
 FLIGHT = {"type": "Feature", "properties": {"duration_s": 2, "pitches": [-40, -90], "times": ["2026-06-21T08:00Z"] * 2},
           "geometry": {"type": "LineString", "coordinates": [[5, 62, 900000], [12, 78, 9000000]]}}
@@ -33,16 +34,16 @@ PROJECTIONS = "EPSG:4326", "EPSG:3857", "EPSG:32633"
 
 
 def setUpModule():
+    os.environ["XDG_CACHE_HOME"] = HOME.name
+    start_cluster()
+    unittest.addModuleCleanup(lambda: (CLIENT.close(), CLUSTER.close()))
+
+
+def start_cluster():
     global CLIENT, CLUSTER
-    home = tempfile.mkdtemp(prefix="terrella-dask-")
-    unittest.addModuleCleanup(shutil.rmtree, home, ignore_errors=True)
-    os.environ["XDG_CACHE_HOME"] = home
     CLUSTER = LocalCluster(n_workers=WORKERS, threads_per_worker=1, processes=True, dashboard_address=None,
-                           local_directory=home, silence_logs="CRITICAL")
-    unittest.addModuleCleanup(CLUSTER.close)
-    CLUSTER.adapt(minimum=WORKERS, maximum=WORKERS, interval="200ms")
+                           local_directory=HOME.name, silence_logs="CRITICAL")
     CLIENT = Client(CLUSTER)
-    unittest.addModuleCleanup(CLIENT.close)
 
 
 def tiles(path):
@@ -55,7 +56,12 @@ class ClusterTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="terrella-dask-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
-        CLIENT.wait_for_workers(WORKERS)
+        try:
+            CLIENT.wait_for_workers(WORKERS, timeout=20)
+        except TimeoutError:  # Dask does not always start a killed worker again
+            CLIENT.close()
+            CLUSTER.close()
+            start_cluster()
 
     def run_and_kill(self, plan, has_begun):
         """Runs a plan, and kills one of the workers that have tasks as soon as the work has begun."""

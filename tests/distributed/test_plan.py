@@ -32,6 +32,9 @@ class Plans(unittest.TestCase):
         self.assertEqual({film.task(k)["output"] for k in range(1, 8)}, {"/nowhere/%03d.png"})
         self.assertEqual(len({preload.task(k)["output"] for k in range(1, 8)}), 7)
 
+    def test_work_lies_beside_a_folder(self):
+        self.assertEqual(plan_cut("p", output="/there/tiles/", parts=2).work, "/there/tiles.work")
+
     def test_parts_share_the_rate(self):
         for parts in 1, 7, 1000:
             plan = plan_preload("s", output="c.gpkg", parts=parts, rate=70)

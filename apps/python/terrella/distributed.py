@@ -137,7 +137,7 @@ def run(client: Client, plan: Plan, **submit: Any) -> Report:
 def _plan(command: str, output: _Path, parts: int, options: dict[str, Any]) -> Plan:
     if not 1 <= parts <= _MOST_PARTS:
         raise ValueError(f"parts {parts}: it takes 1 to {_MOST_PARTS}")
-    return Plan(command=command, output=os.fspath(output), parts=parts, options=options)
+    return Plan(command=command, output=os.fspath(output).rstrip("/"), parts=parts, options=options)
 
 
 def _refuse(options: dict[str, Any], *names: str) -> None:
