@@ -68,12 +68,12 @@ Result<std::shared_ptr<TileSource>> open_files_of_times(const SourceOptions& opt
   auto open = [one = options, first = &told,
                grows = options.cuts != nullptr](const fs::path& file) mutable -> Result<std::shared_ptr<TileSource>> {
     std::vector<std::shared_ptr<GrowingCut>> cuts;  // the tiles own them
-    const CutProgress* told = std::exchange(first, nullptr);
-    if (told == nullptr) one.cuts = grows ? &cuts : nullptr;
+    const CutProgress* progress = std::exchange(first, nullptr);
+    if (progress == nullptr) one.cuts = grows ? &cuts : nullptr;
     one.address = Url(file.string());
-    auto tiles = open_any_tiles(one, told != nullptr ? *told : grows ? short_cut() : CutProgress());
+    auto tiles = open_any_tiles(one, progress != nullptr ? *progress : grows ? short_cut() : CutProgress());
     one.opened = nullptr;  // those of the opening end with it
-    if (tiles || told != nullptr || !grows) return tiles;
+    if (tiles || progress != nullptr || !grows) return tiles;
     return Error{tiles.error().message + "; a file that does not show at once is cut with terrella cut first"};
   };
   return open_dated_files(pattern.string(), *files, options.remote.time, std::move(open));

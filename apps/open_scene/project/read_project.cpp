@@ -1,4 +1,4 @@
-#include "apps/open_scene/project/read_project.h"
+#include "apps/process/data_dir.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,7 @@
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/project/project_words.h"
+#include "apps/process/data_dir.h"
 #include "globe/features/point_clusters.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
