@@ -107,6 +107,7 @@ struct CutOptions {
   int jobs = 0;                        ///< number of encoder threads, [0, 256]; 0: one for each core
   std::optional<CutShard> shard = {};  ///< cuts only this part, into OUTPUT.shard-I-of-N
   bool join = false;                   ///< builds the output from the finished shards beside it
+  bool keep_shards = false;            ///< `join` leaves the shards, so that it may run again
   bool force = false;                  ///< also replaces a tile set that was cut from other pictures
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};

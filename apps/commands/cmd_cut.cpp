@@ -220,6 +220,8 @@ void add_work_options(CLI::App& app, CutCommand& command) {
       "Cut only part I of N into OUT.shard-I-of-N, for a later --join");
   shard->type_name("I/N");
   app.add_flag("--join", cut.join, "Write the output from all shards, then remove the shards")->excludes(shard);
+  app.add_flag("--keep-shards", cut.keep_shards, "Leave the shards after --join, so that it may run again")
+      ->needs("--join");
 }
 
 }  // namespace

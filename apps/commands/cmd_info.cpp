@@ -13,6 +13,7 @@
 #include "apps/commands/tile_set_report.h"
 #include "apps/commands/vector_report.h"
 #include "apps/commands/verify_tiles.h"
+#include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/open_remote_tiff.h"
 #include "apps/open_scene/options/option_checks.h"
@@ -130,6 +131,7 @@ Result<PictureFacts> look_at_address(const InfoOptions& options) {
 
 /// The exit code for files that hold features, and for pictures, which are cut only for --verify. None for others.
 std::optional<int> show_other_than_tiles(const InfoOptions& options, const std::string& path) {
+  if (names_dated_files(options.tile_set)) return {};
   if (holds_features(path)) return run_vector_info(options, path);
   if (options.verify) return {};
   if (is_picture(path)) return run_picture_info(options, look_at(path, options.place, options.band));

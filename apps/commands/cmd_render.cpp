@@ -196,14 +196,23 @@ int run_render_or_film(const CLI::App& sub, FilmCommand& film) {
   return run_film(film);
 }
 
-}  // namespace
-
-void add_render_command(CLI::App& app, int& exit_code) {
+CLI::App& add_render_and_film(CLI::App& app, int& exit_code) {
   const auto film = std::make_shared<FilmCommand>();
   CLI::App& sub = add_render_options(app, film->render);
   add_film_options(sub, *film);
   sub.get_option("--output")->required();
   sub.callback([film, &sub, &exit_code] { exit_code = run_render_or_film(sub, *film); });
+  return sub;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) { add_render_and_film(app, exit_code); }
+
+void add_film_command(CLI::App& app, int& exit_code) {
+  CLI::App& sub = add_render_and_film(app, exit_code);
+  sub.description("Render a film of a flight, without display or GPU");
+  sub.get_option("--flight")->required();
 }
 
 }  // namespace terrella

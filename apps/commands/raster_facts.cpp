@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/commands/picture_report.h"
+#include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/process/console.h"
 #include "streaming/georeference/crs_text.h"
@@ -94,7 +95,7 @@ FactsReader facts_reader(const Url& tile_set, const PlaceWords& words, const Des
     lines = raster_facts(remote->second, words, band);
   } else if (const auto many = opened.many.find(name); many != opened.many.end()) {
     lines = raster_facts(many->second);
-  } else if (!is_remote(tile_set) && is_picture(name)) {
+  } else if (!is_remote(tile_set) && !names_dated_files(tile_set) && is_picture(name)) {
     return [picture = std::filesystem::path(name), words, band] { return raster_facts(picture, words, band); };
   } else {
     return {};

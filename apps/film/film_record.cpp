@@ -90,9 +90,10 @@ Result<FilmFolder> FilmFolder::open(FrameNames names, const FilmFacts& facts, bo
 
 Status FilmFolder::claim(const FilmFacts& facts, bool force) {
   const fs::path path = names_.folder() / kRecord;
+  // Listed first: another shard writes the record before its first frame.
+  const std::vector<fs::path> frames = frames_there(names_);
   const auto recorded = read_record(path);
   if (recorded == facts) return Done{};
-  const std::vector<fs::path> frames = frames_there(names_);
   if (!force && recorded) {
     return Error{
         fmt::format("{}: the frames there are of another film ({} differ); --force replaces them, or name "

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/open_cache.h"
 #include "apps/open_scene/open_picture.h"
 #include "apps/open_scene/open_rasters.h"
@@ -44,6 +47,29 @@ class DescribedSource : public PassedTiles {
   }
 };
 
+Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, const CutProgress& told);
+
+/// Opens the files of a pattern with {time}. A file of a later time that must be cut shows while it is cut, if the
+/// first one may.
+Result<std::shared_ptr<TileSource>> open_files_of_times(const SourceOptions& options, const CutProgress& told) {
+  const fs::path pattern = options.address.with_secrets();
+  if (!options.remote.times.empty()) {
+    return Error{pattern.string() + ": the names of the files say their times; leave --layer-times out"};
+  }
+  const auto files = find_dated_files(pattern);
+  if (!files) return files.error();
+  auto open = [one = options, progress = told, grows = options.cuts != nullptr,
+               is_first = true](const fs::path& file) mutable {
+    std::vector<std::shared_ptr<GrowingCut>> cuts;  // the tiles own them
+    if (!std::exchange(is_first, false)) one.cuts = grows ? &cuts : nullptr;
+    one.address = Url(file.string());
+    auto tiles = open_named(one, std::exchange(progress, {}));
+    one.opened = nullptr;  // those of the opening end with it
+    return tiles;
+  };
+  return open_dated_files(pattern.string(), *files, options.remote.time, std::move(open));
+}
+
 Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, const CutProgress& told) {
   if (names_mosaic(options.address)) {
     auto tiles = open_many_rasters(options, MosaicPixels::as_stored);
@@ -51,6 +77,7 @@ Result<std::shared_ptr<TileSource>> open_named(const SourceOptions& options, con
     return std::shared_ptr<TileSource>(*std::move(tiles));
   }
   if (is_remote(options.address)) return open_remote(options);
+  if (names_dated_files(options.address)) return open_files_of_times(options, told);
   if (const Status found = find_imagery(options); !found) return found.error();
   const fs::path path = options.address.empty() ? data_file("earth.gpkg") : fs::path(options.address.with_secrets());
   const bool said_geodetic = options.projection == Projection::equirectangular;
@@ -120,7 +147,7 @@ Result<fs::path> picture_cache_folder(const std::string& cache) {
 }
 
 Status find_imagery(const SourceOptions& options) {
-  if (is_remote(options.address) || names_mosaic(options.address)) return Done{};
+  if (is_remote(options.address) || names_mosaic(options.address) || names_dated_files(options.address)) return Done{};
   const fs::path path = options.address.empty() ? data_file("earth.gpkg") : fs::path(options.address.with_secrets());
   std::error_code failed;
   if (!fs::exists(file_of(path), failed)) return Error{fmt::format("{}: no such file or folder", path.string())};

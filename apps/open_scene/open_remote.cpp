@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/open_scene/dated_caches.h"
+#include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/fetch_description.h"
 #include "apps/open_scene/open_cache.h"
 #include "apps/open_scene/open_imagery.h"

@@ -23,6 +23,9 @@ void add_render_command(CLI::App& app, int& exit_code);
 void add_serve_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
 
+/// The subcommand `render`, which takes --flight here and always renders a film.
+void add_film_command(CLI::App& app, int& exit_code);
+
 /// The subcommand `render` without a callback; `command` must outlive the parse. Returns the subcommand. thread: main
 CLI::App& add_render_options(CLI::App& app, RenderCommand& command);
 /// Draws the picture, writes it if the command names a file, reports as the program does and returns the exit code. Not

@@ -79,6 +79,7 @@ void add_commands(py::module_& module) {
   const std::string doc = command_doc("render", add_render_options(app, command), {"json"}) +
                           "\nReturns:\n    The picture, height x width x 3 bytes; rows from the top.\n";
   module.def("render", &render, doc.c_str());
+  add_function<&add_film_command>(module, "film");
   add_function<&add_cut_command>(module, "cut");
   add_function<&add_preload_command>(module, "preload");
   add_function<&add_info_command>(module, "info");

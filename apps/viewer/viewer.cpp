@@ -167,7 +167,7 @@ void Viewer::draw_frame(Viewport framebuffer) {
     if (!pictures_.is_drawing()) panel_frames_ = kPanelFrames;  // the globe returns
   } else {
     frame_.draw(globe_, framebuffer);
-    if (!globe_.status()) messages_.say(globe_.status().error().message);
+    if (!globe_.status()) messages_.say(globe_.status().error());
     layers_.watch_tiles(frame_.stats());
     const std::string note = memory_note(globe_.options().gpu_bytes >> 20, globe_.last_frame());
     if (!note.empty() && !std::exchange(said_memory_, true)) messages_.say(note);

@@ -141,7 +141,8 @@ class Viewer {
   MapLayer map_{context_, options_.scene.places};
   Help help_{context_, actions()};
   Pictures pictures_{context_, [this] { return overlay(); }};
-  Search search_{context_, options_.scene.places};
+  Search search_{context_, options_.scene.places,
+                 [this](const Geodetic& place) { return layers_.finest_texel_m(place); }};
   BookmarkViews bookmarks_{context_, [this] { return search_.place_shown(); }};
   FrameGraph frame_graph_{context_};
   Layers layers_;

@@ -36,14 +36,15 @@ void Viewer::turn(Viewer& viewer) {
   viewer.navigator_.pointer_up(PointerButton::right, Input::now());
 }
 
-// Esc closes a list of choices, which Dear ImGui does; or cancels a job, closes a panel or ends a tool. With none of
-// them, a second Esc quits.
+// Esc closes a list of choices, which Dear ImGui does; or cancels a job, closes a fault or a panel or ends a tool. With
+// none of them, a second Esc quits.
 void Viewer::leave() {
   if (Ui::has_open_list()) return;
   const bool again = Clock::now() < std::exchange(quit_until_, Clock::time_point());
   for (Part* part : parts_) {
     if (part->cancel()) return;
   }
+  if (messages_.close_fault()) return;
   for (Part* part : parts_) {
     if (part->close()) return;
   }

@@ -85,7 +85,7 @@ void Viewer::keep_settings() {
   saved_ = now;
   const auto file = settings_file();
   if (!file) return;
-  if (const Status saved = save_settings(*file, now); !saved) messages_.say(saved.error().message);
+  if (const Status saved = save_settings(*file, now); !saved) messages_.say(saved.error());
 }
 
 }  // namespace terrella

@@ -29,6 +29,7 @@ PanelStatus Viewer::status(const View& view) {
   if (loading > 0) status.tiles = fmt::format("{} {} loading", loading, loading == 1 ? "tile" : "tiles");
   if (const auto& time = globe_.options().time) status.time = time_text(*time);
   status.message = messages_.text();
+  status.is_fault = messages_.is_fault();
   status.job = job_text_;
   if (!pictures_.is_drawing()) status.attribution = fmt::format("{}", fmt::join(credits(), "   "));
   if (!status.attribution.empty()) last_attribution_ = status.attribution;

@@ -40,6 +40,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python}, python3-numpy, terrella, libegl1, libgl1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libgdal32, libgl1-mesa-dri, libegl-mesa0")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-distributed)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Globes for notebooks: pictures as numpy arrays, without a display and without a GPU.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libterrella${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

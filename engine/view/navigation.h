@@ -42,6 +42,8 @@ class Navigator {
   /// Sets the finest texel of the imagery, metres on the ground, > 0; none: no stop. The wheel and the keys then stop
   /// zooming in where a texel covers 8 pixels. A push after a pause of 0.4 s goes on from there.
   void set_finest_texel(std::optional<double> texel_m) { texel_m_ = texel_m; }
+  /// Height over the ground from which a texel of that many metres covers 8 pixels.
+  [[nodiscard]] double texel_stop_m(double texel_m) const;
   /// True while the zoom stands at the finest texels, until another gesture.
   [[nodiscard]] bool is_at_texels() const { return at_texels_; }
 

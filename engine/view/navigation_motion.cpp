@@ -47,12 +47,16 @@ double Navigator::nearer_m(double over_m, double factor) const {
   return deepest_m_ && over_m < 0.0 ? -range.clamp(-over_m * factor) : range.clamp(over_m * factor);
 }
 
+double Navigator::texel_stop_m(double texel_m) const {
+  const double pixels_per_radian = 0.5 * viewport_.height_px / std::tan(0.5 * camera_.fov_y.rad());
+  return texel_m * pixels_per_radian / kMostTexel_px;
+}
+
 // Height over the ground after a step of the wheel or a key, with the stop at the finest texels.
 double Navigator::zoomed_m(double over_m, double factor, Seconds now) {
   const double wanted_m = nearer_m(over_m, factor);
   const Seconds pause = now - std::exchange(last_zoom_, now);
-  const double pixels_per_radian = 0.5 * viewport_.height_px / std::tan(0.5 * camera_.fov_y.rad());
-  const double stop_m = texel_m_.value_or(0.0) * pixels_per_radian / kMostTexel_px;
+  const double stop_m = texel_stop_m(texel_m_.value_or(0.0));
   const bool crosses = over_m >= stop_m * (1.0 - kAtStop) && wanted_m < stop_m;
   const bool stands = over_m <= stop_m * (1.0 + kAtStop);
   at_texels_ = crosses && !(stands && pause > kSecondPush);

@@ -107,9 +107,10 @@ void look_through_air(vec3 position_from_eye, vec3 normal_ecef) {
 #endif
 #if defined(RELIEF) || defined(SPECIAL_LAYER)
   {
-    vec3 to_ground = clamp(air_through, 1e-6, 1.0);
-    air_through = pow(to_ground, vec3(air_part(way, down, exaggeration)));
-    air_light = air_light_of(air_light, to_ground, air_through);
+    vec3 to_ground = max(air_through, 1e-6);
+    float part = air_part(way, down, exaggeration);
+    air_through = pow(to_ground, vec3(part));
+    air_light = air_light_of(air_light, to_ground, part);
   }
 #endif
 #if defined(NEAR_GROUND)

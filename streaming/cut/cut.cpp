@@ -144,7 +144,7 @@ Result<CutSummary> join_shards(const Job& job) {
   const auto folder = WorkFolder::beside(job.claim.output, job.key);
   if (!folder) return folder.error();
   auto summary = join(job, job.work(), shards->bands, *folder);
-  if (!summary) return summary;
+  if (!summary || job.options.keep_shards) return summary;
   for (const fs::path& done : shards->folders) {
     std::error_code ignored;
     fs::remove_all(done, ignored);

@@ -42,6 +42,17 @@ TEST_F(Shards, JoinedAreTheSameBytesAsTheWhole) {
   expect_joined_is_whole();
 }
 
+TEST_F(Shards, AreKeptForAnotherJoin) {
+  for (const int index : {1, 2}) ASSERT_TRUE(must_cut(options(CutShard{index, 2})));
+  CutOptions keeping = options({}, true);
+  keeping.keep_shards = true;
+  ASSERT_TRUE(must_cut(keeping));
+  const auto first = read_bytes(folder_ / "out.gpkg");
+  ASSERT_TRUE(must_cut(keeping));
+  EXPECT_TRUE(read_bytes(folder_ / "out.gpkg") == first);
+  expect_joined_is_whole();
+}
+
 TEST_F(Shards, MayBeMoreThanThereIsWork) {
   for (int index = 1; index <= 7; ++index) ASSERT_TRUE(must_cut(options(CutShard{index, 7})));
   expect_joined_is_whole();

@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "air_fixture.h"
+#include "tests/gl/painted_heights.h"
+#include "tiles/elevation_source.h"
 
 namespace terrella::test {
 namespace {
@@ -151,6 +153,35 @@ TEST_F(AirLook, LeavesImageryItsOwnColoursAtNoon) {
         EXPECT_LE(worst, kOff_levels) << time << ", " << int(own[0]) << " " << int(own[1]) << " " << int(own[2])
                                       << " from " << height_m << " m";
       }
+    }
+  }
+}
+
+// Water has no air: over a sea floor the air is that over the sea's surface, but for rays that meet the floor further on.
+TEST_F(AirLook, OverASeaFloorIsThatOverTheSea) {
+  constexpr int kOff_levels = 8;
+  GlobeOptions options;
+  options.sky = true;
+  const auto globe = make_globe(options, one_colour({.tile_px = 64, .max_level = 1}, {12, 30, 80}));
+  const auto floor = ElevationSource::open(
+      painted_heights({.tile_px = 64, .max_level = 1}, [](double, double) { return -5000.0; }), "floor");
+  ASSERT_TRUE(floor);
+  for (const double height_m : {3.0e5, 8.0e5, 3.0e6}) {
+    for (const double pitch_deg : {-90.0, -70.0, -50.0}) {
+      ASSERT_TRUE(globe->set_elevation({}));
+      globe->set_camera(camera_at(20.0, -155.0, height_m, 0.0, pitch_deg, 40.0));
+      settle(*globe, kSize);
+      const Picture sea = picture();
+      ASSERT_TRUE(globe->set_elevation(*floor));
+      settle(*globe, kSize);
+      const Picture seen = picture();
+      int worst = 0;
+      for (int k = 0; k < kSize.width_px * kSize.height_px; ++k) {
+        const Color a = sea.at(k % kSize.width_px, k / kSize.width_px),
+                    b = seen.at(k % kSize.width_px, k / kSize.width_px);
+        for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(int(a[c]) - int(b[c])));
+      }
+      EXPECT_LE(worst, kOff_levels) << "from " << height_m << " m, pitch " << pitch_deg;
     }
   }
 }

@@ -1,5 +1,6 @@
 """Runs the viewer in a private display, and sends real key and pointer events to the viewer."""
 
+import contextlib
 import json
 import operator
 import os
@@ -197,9 +198,12 @@ class Viewer:
                        stdout=subprocess.DEVNULL, check=True, timeout=60)
 
     def quit(self):
-        """Leaves as a user does, by Esc and Esc again; the exit code."""
-        self.xdotool("key", "--delay", "200", "Escape", "Escape")
-        return self.program.wait(timeout=30)
+        """Leaves as a user does, by Esc and Esc again, after those that close a fault or a mark; the exit code."""
+        for _ in range(3):
+            self.xdotool("key", "--delay", "200", "Escape", "Escape", check=False)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                return self.program.wait(timeout=2)
+        return self.program.wait(timeout=15)
 
     def right_click(self, x, y):
         self.move(x, y)

@@ -1,10 +1,17 @@
 """A user's way to a distance: search a place, measure, save a picture."""
 
 import json
+import math
+import subprocess
 import unittest
 
 import png
-from real_window import SIZE, WindowTest, differing, wait_until
+from real_window import PROGRAM, SIZE, WindowTest, differing, wait_until
+
+
+def is_red(pixel):
+    red, green, blue = pixel
+    return red > 200 and red - max(green, blue) > 80
 
 
 class Tools(WindowTest):
@@ -16,8 +23,50 @@ class Tools(WindowTest):
         there = viewer.next_camera()
         self.assertAlmostEqual(there.lat, -23.55, delta=0.2)
         self.assertAlmostEqual(there.lon, -46.63, delta=0.2)
-        self.assertLess(there.height_m, 1e6)
-        self.screenshot(viewer, "search_there")
+        # A texel of the included Earth, 360° / 4096 of the equator, covers 8 pixels at a field of view of 40°.
+        sharp_m = 40_075_017 / 4096 * SIZE[1] / 2 / math.tan(math.radians(20)) / 8
+        self.assertAlmostEqual(there.height_m / sharp_m, 1, delta=0.01)
+        # The place is marked by a red disc in the middle, until Esc.
+        marked = self.picture(viewer, "search_there", lambda picture: is_red(png.pixel(picture, SIZE[0] // 2, SIZE[1] // 2)))
+        viewer.key("Escape")
+        plain = self.picture(viewer, "search_unmarked", lambda picture: not is_red(png.pixel(picture, SIZE[0] // 2, SIZE[1] // 2)))
+        self.assertGreater(png.changed(marked, plain), 300, "the disc and its name")
+
+    def test_a_flight_goes_as_near_as_the_best_picture_of_the_place_allows(self):
+        subprocess.run(["convert", "-size", "512x512", "xc:#2060a0", self.folder / "bay.png"], check=True)
+        viewer = self.start("--camera", "10,20,9000000", "--overlay", self.tiles_of("bay.png", "-47,-24,-46,-23"))
+        for name, height_m in (("sao", 0.05 * 6378137), ("santa", None)):
+            viewer.xdotool("key", "--delay", "1", "slash", *name)
+            viewer.key("Return")
+            there = viewer.next_camera()
+            if height_m:
+                self.assertAlmostEqual(there.height_m / height_m, 1, delta=0.01)
+            else:
+                self.assertGreater(there.height_m, 7e5, "the overlay has no tile there")
+
+    def tiles_of(self, picture, bounds):
+        tiles = self.folder / "bay.gpkg"
+        subprocess.run([PROGRAM, "cut", self.folder / picture, "-o", tiles, f"--bounds={bounds}"], check=True,
+                       capture_output=True)
+        return tiles
+
+    def test_a_fault_stays_until_it_is_closed(self):
+        (self.folder / "broken.tif").write_bytes(b"II*\0nothing")
+        viewer = self.start("--camera", "10,20,9000000")
+        viewer.key("ctrl+o")
+        viewer.panel("Open")
+        viewer.set_clipboard("broken.tif")
+        viewer.key("ctrl+v")
+        viewer.key("Return")
+
+        def has_bar():
+            return any(is_red(row[x].to_bytes(4, "big")[1:]) for row in viewer.grab()[-120:-20]
+                       for x in range(4, 400))
+
+        wait_until("a red bar", has_bar)
+        viewer.save_grab(self.folder / "fault.png")
+        viewer.key("Escape")
+        wait_until("no bar", lambda: not has_bar())
 
     def test_escape_closes_the_search_and_not_the_window(self):
         viewer = self.start("--camera", "10,20,9000000")

@@ -11,6 +11,7 @@
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/options/surface_options.h"
 #include "apps/open_scene/project/read_project.h"
+#include "apps/process/data_dir.h"
 #include "globe/experiments.h"
 #include "globe/features/point_clusters.h"
 #include "sky/almanac.h"
@@ -225,6 +226,8 @@ void set_images(SceneOptions& options, std::vector<LayerOption> images) {
   if (!images.empty()) images.erase(images.begin());
   options.layers = std::move(images);
 }
+
+Url included_relief() { return Url(data_file("relief.gpkg").string()); }
 
 GlobeOptions globe_options(const SceneOptions& options, const Body& body) {
   GlobeOptions globe;

@@ -94,6 +94,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds --projection and --latitude, the meaning of an image's rows. thread: main
 void add_row_options(CLI::App& command, SourceOptions& source);
 
+/// Address of the heights of the Earth that the program includes. Throws BrokenInstallation. thread: any
+[[nodiscard]] Url included_relief();
+
 /// Converts the options for the globe. thread: any
 [[nodiscard]] GlobeOptions globe_options(const SceneOptions& options, const Body& body);
 /// Says what --memory leaves out on the ground, or what the driver gives for tiles, if that is less than --memory asks

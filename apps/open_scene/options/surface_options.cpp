@@ -54,6 +54,11 @@ void add_relief_options(CLI::App& command, SceneOptions& options) {
       ->check(CLI::IsMember({"terrain-rgb", "mapbox", "terrarium"}))
       ->type_name("terrain-rgb|terrarium")
       ->needs("--elevation");
+  command
+      .add_flag_callback(
+          "--relief", [&options] { options.elevation = included_relief(); },
+          "Raise the ground by the included heights of the Earth's land and sea floor, 10 km apart")
+      ->excludes("--elevation");
   command.add_option("--exaggeration", options.exaggeration, "Multiply all drawn heights by this factor")
       ->check(number_in(0.0, 100.0))
       ->capture_default_str();

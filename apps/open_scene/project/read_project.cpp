@@ -149,7 +149,7 @@ void read_heights(const Reader& reader, const Json& layer, const std::string& wh
   JsonFields fields(layer, where);
   constexpr std::array kKnown = {kKind, kSource, kShown, kEncoding};
   fields.refuse_others(kKnown);
-  options.elevation = source_of(reader, fields, true);
+  options.elevation = fields.has(kSource) ? Url(source_of(reader, fields, true)) : included_relief();
   double opacity = 1.0;
   read_look(fields, options.elevation_shown, opacity);
   if (const std::string name = fields.text(kEncoding); !name.empty()) {
@@ -206,7 +206,7 @@ void read_layers(const Reader& reader, const Json& layers, const CLI::App* given
     } else if (kind != kHeights) {
       throw ProjectFault(
           fmt::format("{}: there is no kind \"{}\"; the kinds are heights, imagery, objects, model", where, kind));
-    } else if (given == nullptr || given->count("--elevation") == 0) {
+    } else if (given == nullptr || given->count("--elevation") + given->count("--relief") == 0) {
       read_heights(reader, layers[i], where, options);
     }
   }

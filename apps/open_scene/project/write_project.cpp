@@ -166,7 +166,8 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
 }
 
 OrderedJson heights_json(const SceneOptions& scene, const fs::path& folder) {
-  OrderedJson json = {{kKind, kHeights}, {kSource, seen_from(scene.elevation.with_secrets(), folder)}};
+  OrderedJson json = {{kKind, kHeights}};
+  if (scene.elevation != included_relief()) json[kSource] = seen_from(scene.elevation.with_secrets(), folder);
   put(json, kShown, scene.elevation_shown, true);
   for (const char* name : kEncodings) {
     if (scene.elevation_encoding && rgb_encoding(name) == scene.elevation_encoding) json[kEncoding] = name;

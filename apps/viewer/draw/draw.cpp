@@ -23,7 +23,7 @@ void Draw::restore(const SceneOptions& scene) {
   if (!complaint.empty()) say(complaint);
   if (scene.drawings.empty()) return;
   const auto of_project = parse_drawing(scene.drawings, scene.project + ": \"drawings\"");
-  if (!of_project) return say(of_project.error().message);
+  if (!of_project) return say(of_project.error());
   Drawing both = history_.now();
   for (const DrawnMark& mark : of_project->drawing.marks) {
     const auto same = [mark](DrawnMark kept) {
@@ -63,7 +63,7 @@ void Draw::toggled() {
 void Draw::finish() {
   if (!sketch_) return;
   DrawnMark mark{.kind = *sketch_, .places = path_.places(), .look = look_};
-  if (const Status good = check_mark(mark); !good) return say(good.error().message);
+  if (const Status good = check_mark(mark); !good) return say(good.error());
   cancel_sketch();
   Drawing next = history_.now();
   const ObjectId id = next.add(std::move(mark));
@@ -190,13 +190,13 @@ void Draw::show() {
   shown_ = now;
   const DrawnMark* mark = selected();
   place_ = mark == nullptr ? 0 : std::min(place_, mark->places.size() - 1);
-  if (!shown) say(shown.error().message);
+  if (!shown) say(shown.error());
 }
 
 void Draw::keep() {
   const Result<std::string> kept = kept_.save(history_.now());
   if (kept && !kept->empty()) say(*kept);
-  if (!kept && kept_well_) say(kept.error().message);
+  if (!kept && kept_well_) say(kept.error());
   kept_well_ = kept ? Status(Done{}) : kept.error();
   if (kept) warned_ = false;
 }
@@ -207,7 +207,7 @@ bool Draw::may_quit() {
   finish_or_cancel();
   if (!kept_well_) keep();
   if (kept_well_ || std::exchange(warned_, true)) return true;
-  say(kept_well_.error().message + ". Save the drawings (Ctrl + S), or quit again to lose them.");
+  say(Error{kept_well_.error().message + ". Save the drawings (Ctrl + S), or quit again to lose them."});
   return false;
 }
 

@@ -56,7 +56,7 @@ void Draw::answer(const DrawWish& wish) {
       return fly_there();
     case DrawAsk::change: {
       const Status good = check_mark(*wish.changed);
-      return good ? change(*wish.changed) : say(good.error().message);
+      return good ? change(*wish.changed) : say(good.error());
     }
     default:
       return answer_place(wish);
@@ -95,7 +95,7 @@ void Draw::answer_place(const DrawWish& wish) {
   } else {
     return;
   }
-  if (const Status good = check_mark(mark); !good) return say(good.error().message);
+  if (const Status good = check_mark(mark); !good) return say(good.error());
   if (wish.ask == DrawAsk::insert) ++place_;
   *next.find(mark.id) = std::move(mark);
   commit(std::move(next));
@@ -126,7 +126,7 @@ void Draw::save() {
     return say(file_ + " is there already. Save again to replace it.");
   const Status saved = save_drawing(folder / file_, history_.now());
   if (saved) overwrite_ = file_;
-  say(saved ? "Saved " + (folder / file_).string() : saved.error().message);
+  saved ? say("Saved " + (folder / file_).string()) : say(saved.error());
 }
 
 void Draw::open_file() {
@@ -134,7 +134,7 @@ void Draw::open_file() {
   std::error_code unknown;
   if (file_.empty()) return say("Type the name of a file first");
   const auto opened = open_drawing(std::filesystem::current_path(unknown) / file_);
-  if (!opened) return say(opened.error().message);
+  if (!opened) return say(opened.error());
   Drawing next = history_.now();
   for (const DrawnMark& mark : opened->drawing.marks) next.add(mark);
   commit(std::move(next));

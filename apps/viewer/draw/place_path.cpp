@@ -89,7 +89,7 @@ void PlacePath::show() {
     if (layer) layer_ = *layer;
     if (!layer) shown = layer.error();
   }
-  if (!shown) context_.messages.say(shown.error().message);
+  if (!shown) context_.messages.say(shown.error());
 }
 
 }  // namespace terrella

@@ -21,13 +21,14 @@ constexpr float kWidestMessage = 0.85F;  // share of the window's width
 constexpr float kLeastHeight = 14.0F;    // in text heights, of a window with a scale bar
 constexpr float kNarrow = 50.0F;         // in text heights; the attribution takes the whole width of a narrower window
 constexpr float kTick = 0.35F;           // in text heights, of the scale bar
-const ImU32 kInk = IM_COL32(232, 240, 248, 255);
+constexpr float kFaultBar = 0.25F;       // in text heights, beside a fault
+const ImU32 kInk = IM_COL32(232, 240, 248, 255), kFault = IM_COL32(255, 120, 90, 255);
 
 float margin() { return kMargin * ImGui::GetFontSize(); }
 
 struct Field {
   std::string text;
-  bool quiet = false;
+  bool quiet = false, fault = false;
 };
 
 void draw_text(const Field& field) {
@@ -69,6 +70,14 @@ void draw_wrapped(const char* name, const Field& field, ImVec2 at, ImVec2 pivot,
   if (field.text.empty()) return;
   const Field lines{wrapped(field.text, widest), field.quiet};
   begin_fixed(name, at, pivot, ImGui::CalcTextSize(lines.text.c_str()));
+  if (field.fault) {
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const ImVec2 end{corner.x + kFaultBar * ImGui::GetFontSize(), corner.y + size.y};
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->PushClipRectFullScreen();  // the bar lies in the window's padding
+    list->AddRectFilled(corner, end, kFault, ImGui::GetStyle().WindowRounding, ImDrawFlags_RoundCornersLeft);
+    list->PopClipRect();
+  }
   draw_text(lines);
   ImGui::End();
 }
@@ -173,10 +182,11 @@ void draw_message(const PanelStatus& status, float foot) {
   std::string text = status.job;
   if (!text.empty() && !status.message.empty()) text += "\n";
   text += status.message;
+  if (status.is_fault) text += "\nEsc closes this";
   const MessageRoom room = room_for_message(foot);
   const float whole = std::min(room.right - room.left, kWidestMessage * ImGui::GetIO().DisplaySize.x);
-  draw_wrapped("##message", {text}, {0.5F * (room.left + room.right), room.bottom}, {0.5F, 1.0F},
-               whole - 2.0F * ImGui::GetStyle().WindowPadding.x);
+  draw_wrapped("##message", {text, false, status.is_fault}, {0.5F * (room.left + room.right), room.bottom},
+               {0.5F, 1.0F}, whole - 2.0F * ImGui::GetStyle().WindowPadding.x);
 }
 
 }  // namespace terrella

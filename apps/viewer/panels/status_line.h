@@ -13,7 +13,8 @@ struct PanelStatus {
   std::string eye;          ///< height of the eye
   std::string tiles;        ///< empty when no tile is loading
   std::string time;         ///< time of the sky; empty without one
-  std::string message;      ///< message of the last action, shown for some seconds; may be empty
+  std::string message;      ///< message of the last action; may be empty
+  bool is_fault = false;    ///< the message is a fault, which stays until Esc closes it
   std::string job;          ///< running job and its progress; may be empty
   std::string attribution;  ///< attribution of the visible layers; may be empty
   /// The attribution that was last shown: while an opaque layer hides it, its room stays free, so that no panel jumps

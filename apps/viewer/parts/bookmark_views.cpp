@@ -14,7 +14,7 @@ bool BookmarkViews::load() {
   if (!file) return true;
   Result<Bookmarks> kept = Bookmarks::load(*file);
   if (!kept) {
-    say(kept.error().message);
+    say(kept.error());
     return false;
   }
   bookmarks_ = *std::move(kept);
@@ -44,7 +44,7 @@ void BookmarkViews::keep(const std::string& done) const {
   const auto file = bookmarks_file(context_.globe.options().body.name);
   const Status saved =
       file ? bookmarks_.save(*file) : Status(Error{"Bookmarks last until the window closes, because HOME is not set"});
-  say(saved ? done : saved.error().message);
+  saved ? say(done) : say(saved.error());
 }
 
 void BookmarkViews::draw_open(float foot) {

@@ -17,6 +17,7 @@
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/recent_files.h"
+#include "geo/longitudes.h"
 
 namespace terrella {
 namespace {
@@ -198,6 +199,22 @@ std::optional<ProfileNumbers> Layers::shown_numbers() const {
       .layer = row->id, .name = legend_title(row->name, *row->numbers), .unit = one_line(row->numbers->unit)};
 }
 
+std::optional<double> Layers::finest_texel_m(const Geodetic& place) const {
+  std::optional<double> finest;
+  const double degree_m = context_.globe.options().body.ellipsoid.a_m() * Angle::degrees(1.0).rad();
+  for (const LayerRow& row : rows_) {
+    if (row.kind != LayerKind::imagery || !row.look.shown || !row.tiles) continue;
+    const TileGrid& grid = row.tiles->info().grid;
+    const GeoRect bounds = row.bounds.value_or(grid.bounds);
+    const bool covers =
+        bounds.south <= place.lat && place.lat <= bounds.north && meets_longitudes(bounds, place.lon.deg(), 0.0);
+    if (!covers) continue;
+    const double texel_m = tile_span_deg(grid, grid.max_level) / grid.tile_px * degree_m;
+    finest = std::min(finest.value_or(texel_m), texel_m);
+  }
+  return finest;
+}
+
 std::string Layers::value_at(const Geodetic& place, double x_px) {
   const auto& line = context_.globe.options().surface.swipe;
   const int width_px = context_.window.framebuffer().width_px;
@@ -216,7 +233,7 @@ void Layers::take_look(LayerRow& row, const ImageLook& look) {
   if (row.kind == LayerKind::objects) set = globe.show_objects(row.id, look.shown);
   if (row.kind == LayerKind::objects && set) set = globe.fade_objects(row.id, look.opacity);
   if (row.kind == LayerKind::heights) set = use_heights(look.shown ? heights_ : std::nullopt);
-  if (!set) return say(set.error().message);
+  if (!set) return say(set.error());
   row.look = look;
 }
 
@@ -224,11 +241,11 @@ void Layers::take_style(LayerRow& row) {
   if (!row.style) return;
   if (const auto wish = row.style->take_wish()) {
     const Status done = row.style->apply(context_.globe, row.id, *wish);
-    if (!done) say(done.error().message);
+    if (!done) say(done.error());
   }
   if (!row.style->take_save_wish()) return;
   const Result<std::filesystem::path> saved = save_style(*row.style);
-  say(saved ? "Saved " + saved->filename().string() : saved.error().message);
+  saved ? say("Saved " + saved->filename().string()) : say(saved.error());
 }
 
 Status Layers::use_heights(const std::optional<ElevationSource>& heights) {
@@ -254,7 +271,7 @@ bool Layers::move_row(std::size_t row, bool up) {
   const auto other = std::ranges::find(rows_, neighbour, &LayerRow::id);
   if (other == rows_.end()) return false;  // the measurement has no row and stays on top
   const Status moved = globe.move(rows_[row].id, up ? place + 1 : place - 1);
-  if (!moved) say(moved.error().message);
+  if (!moved) say(moved.error());
   if (moved) std::swap(rows_[row], *other);
   return bool(moved);
 }
@@ -272,7 +289,7 @@ bool Layers::remove_row(std::size_t row) {
   const bool heights = layer.kind == LayerKind::heights;
   const Status removed = heights ? use_heights(std::nullopt) : context_.globe.remove(layer.id);
   if (!removed) {
-    say(removed.error().message);
+    say(removed.error());
     return false;
   }
   if (heights) heights_.reset();
@@ -340,7 +357,7 @@ void Layers::follow_view(Viewport picture) {
     if (followed && row.clusters) {
       followed = row.clusters->follow(context_.globe, row.id, row.objects.cluster_px, picture);
     }
-    if (!followed) say(followed.error().message);
+    if (!followed) say(followed.error());
   }
 }
 
@@ -378,13 +395,13 @@ std::optional<GeoRect> Layers::add_row(OpenedFile file) {
     added = add_objects(std::move(objects), row);
   }
   if (!added) {
-    say(row.name + ": " + added.error().message);
+    say(Error{row.name + ": " + added.error().message});
     return {};
   }
   const std::optional<GeoRect> part = row.bounds;
   insert(std::move(row));
   const Status kept = remember_opened(std::array{path});
-  say(kept ? told : kept.error().message);
+  kept ? say(told) : say(kept.error());
   return part;
 }
 

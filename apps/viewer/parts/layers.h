@@ -68,6 +68,8 @@ class Layers : public Panel {
   [[nodiscard]] std::optional<std::string> shown_objects(LayerId layer) const;
   /// The shown layers of images that have instants, the highest first.
   [[nodiscard]] std::vector<TimedLayer> timed() const;
+  /// Side of the finest texels of the shown images with data at a place, metres along the equator; none without one.
+  [[nodiscard]] std::optional<double> finest_texel_m(const Geodetic& place) const;
   /// The highest shown layer of numbers.
   [[nodiscard]] std::optional<ProfileNumbers> shown_numbers() const;
   /// The value that the highest layer of numbers that shows at a place stores there; empty while it is not known.

@@ -53,7 +53,7 @@ void Measure::save() const {
   const auto file = new_file_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now(), ".geojson");
   const std::string text = measurement_geojson(context_.globe.options().body.ellipsoid, path_.places());
   const Status saved = write_file(file, std::as_bytes(std::span(text)));
-  say(saved ? "Saved " + file.string() : saved.error().message);
+  saved ? say("Saved " + file.string()) : say(saved.error());
 }
 
 void Measure::keep() {

@@ -9,6 +9,7 @@ namespace terrella {
 namespace {
 
 constexpr std::chrono::seconds kMessageTime(4);
+constexpr int kMostLines = 6;                            // lines of faults
 constexpr std::chrono::milliseconds kCharacterTime(50);  // reading time per character
 
 }  // namespace
@@ -20,6 +21,7 @@ void Messages::say(const std::string& text) {
 
 void Messages::say(const std::string& text, Clock::duration time) {
   text_ = shown_message(text);
+  is_fault_ = false;
   until_ = Clock::now() + time;
 }
 
@@ -28,10 +30,23 @@ void Messages::say_then(const std::string& text, std::function<void()> act) {
   act_ = std::move(act);
 }
 
+void Messages::say(const Error& fault) {
+  say(fault.message);
+  is_fault_ = true;
+}
+
 void Messages::report(const std::string& problem) {
-  const bool more = !problems_.empty() && text_ == problems_;
-  problems_ = more ? problems_ + "\n" + shown_message(problem) : shown_message(problem);
-  say(problems_);
+  if (!is_fault_) return say(Error{problem});
+  if (text_.find(shown_message(problem)) != text_.npos) return;
+  const bool full = std::ranges::count(text_, '\n') >= kMostLines;
+  say(Error{(full ? text_.substr(text_.find('\n') + 1) : text_) + "\n" + problem});
+}
+
+bool Messages::close_fault() {
+  if (!is_fault_) return false;
+  text_.clear();
+  is_fault_ = false;
+  return true;
 }
 
 void Messages::begin_frame() {
@@ -44,7 +59,7 @@ void Messages::end_frame() {
 }
 
 double Messages::seconds_left(double most_s) const {
-  if (text_.empty()) return most_s;
+  if (text_.empty() || is_fault_) return most_s;
   return std::clamp(std::chrono::duration<double>(until_ - Clock::now()).count(), 0.001, most_s);
 }
 

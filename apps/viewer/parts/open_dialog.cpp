@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/open_scene/dated_files.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/tools/recent_files.h"
@@ -116,7 +117,7 @@ void OpenDialog::typed() {
 /// has it.
 void OpenDialog::take(const std::string& text) {
   if (text.empty()) return;
-  if (is_address(text)) return choose(text);
+  if (is_address(text) || names_dated_files(Url(text))) return choose(text);
   const fs::path path = path_of(text);
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) {
@@ -183,7 +184,7 @@ void OpenDialog::draw_recent() {
     if (row == Row::marked) text_ = path;
     std::error_code unknown;
     if (row != Row::chosen) continue;
-    if (is_address(path) || fs::exists(path, unknown)) return choose(path);
+    if (is_address(path) || names_dated_files(Url(path)) || fs::exists(path, unknown)) return choose(path);
     problem_ = path + ": this file is not there any more; choose another one";
   }
 }

@@ -57,6 +57,7 @@ class Part {
 
  protected:
   void say(const std::string& text) const { context_.messages.say(text); }
+  void say(const Error& fault) const { context_.messages.say(fault); }
 
   const ViewerContext context_;
 };

@@ -77,7 +77,7 @@ PictureOverlay Pictures::wanted_overlay() const {
 
 void Pictures::start() {
   auto job = PictureJob::start(context_.globe, next_file(), {width_px_, height_px_});
-  if (!job) return say(job.error().message);
+  if (!job) return say(job.error());
   job_ = *std::move(job);
 }
 
@@ -102,7 +102,7 @@ void Pictures::after_frame(Viewport framebuffer) {
   if (!std::exchange(screenshot_wanted_, false)) return;
   const auto file = next_file();
   const Status saved = save_back_buffer(file, framebuffer);
-  say(saved ? "Saved " + file.filename().string() : saved.error().message);
+  saved ? say("Saved " + file.filename().string()) : say(saved.error());
 }
 
 }  // namespace terrella

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kPlaceHeight = 0.05;   // height above a found place, in radii
 constexpr double kCountryHeight = 1.5;  // height above a country, in sides of a square of its area: it fills the window
+constexpr float kMark_px = 12.0F;
 constexpr std::size_t kMostFound = 8;
 constexpr double kCoordinateStep_deg = 1e-4;  // last digit of coordinates in the list
 constexpr float kSearchWidth = 22.0F;         // in text heights
@@ -35,7 +36,7 @@ bool Search::can_open() {
   if (!places_) {
     auto loaded = load();
     if (!loaded) {
-      say(loaded.error().message);
+      say(loaded.error());
       return false;
     }
     places_ = *std::move(loaded);
@@ -70,8 +71,16 @@ std::string Search::place_shown() {
   return place == nullptr ? std::string() : full_name(*place);
 }
 
+bool Search::close() {
+  if (Panel::close()) return true;
+  if (!mark_) return false;
+  remove_mark();
+  return true;
+}
+
 void Search::toggled() {
   text_.clear();
+  if (is_open()) remove_mark();
   if (!is_open()) context_.ui.expect_text(false);
 }
 
@@ -134,13 +143,37 @@ std::optional<NamedPlace> Search::draw_found(bool entered) const {
 void Search::fly_to(const NamedPlace& place) {
   toggle();
   Camera camera = context_.navigator.camera();
+  const double wanted_m = std::max(kPlaceHeight * context_.globe.options().body.ellipsoid.a_m(),
+                                   kCountryHeight * 1000.0 * std::sqrt(place.area_km2));
+  const double sharp_m = context_.navigator.texel_stop_m(finest_texel_m_(place.place).value_or(0.0));
   camera.eye = place.place;
-  camera.eye.height_m = std::max(kPlaceHeight * context_.globe.options().body.ellipsoid.a_m(),
-                                 kCountryHeight * 1000.0 * std::sqrt(place.area_km2));
+  camera.eye.height_m = std::max(wanted_m, sharp_m);
   camera.heading = Angle{};
   camera.pitch = Angle::degrees(-90.0);
   context_.navigator.fly_to(camera, Input::now());
-  say(full_name(place));
+  if (place.area_km2 == 0.0) mark(place);  // a country has its name on the map
+  say(full_name(place) + (sharp_m > wanted_m ? ". The imagery has no finer detail here; E adds more." : ""));
+}
+
+void Search::mark(const NamedPlace& place) {
+  remove_mark();
+  const float size_px = kMark_px * context_.window.text_scale();
+  ObjectScene scene;
+  scene.points.push_back({.place = place.place, .size_px = size_px, .heights = HeightMode::clamp_to_ground});
+  scene.labels.push_back({.text = place.name,
+                          .place = place.place,
+                          .size_px = size_px,
+                          .priority = 1.0,
+                          .heights = HeightMode::clamp_to_ground});
+  const Result<LayerId> added = context_.globe.add_objects(std::move(scene));
+  if (!added) return say(added.error());
+  mark_ = *added;
+}
+
+void Search::remove_mark() {
+  if (!mark_) return;
+  const Status removed = context_.globe.remove(*std::exchange(mark_, std::nullopt));
+  if (!removed) say(removed.error());
 }
 
 }  // namespace terrella

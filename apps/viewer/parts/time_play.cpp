@@ -29,7 +29,7 @@ void TimePlay::play(bool on) {
 void TimePlay::start() {
   Status set = context_.globe.set_time(present_time());
   if (set) set = context_.globe.set_night_lights(true);
-  set ? play(true) : say(set.error().message);
+  set ? play(true) : say(set.error());
 }
 
 void TimePlay::advance(Seconds now) {
@@ -44,7 +44,7 @@ void TimePlay::advance(Seconds now) {
   const Status set = context_.globe.set_time(*time + by);
   if (set) return;
   playing_ = false;
-  say(set.error().message);
+  say(set.error());
 }
 
 bool TimePlay::changed() const { return playing_ && seconds_left(kSlowest_s) <= 0.0; }

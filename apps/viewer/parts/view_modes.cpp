@@ -52,7 +52,7 @@ void ViewModes::apply(const ViewSettings& settings) {
   play_.set_speed(settings.speed);
   if (settings.playing != play_.is_playing()) play_.play(settings.playing);
   if (settings.night_lights != globe.has_night_lights()) {
-    if (const Status lit = globe.set_night_lights(settings.night_lights); !lit) say(lit.error().message);
+    if (const Status lit = globe.set_night_lights(settings.night_lights); !lit) say(lit.error());
   }
   if (settings.time == options.time) return;
   if (options.time || !settings.time) return set_time(settings.time);

@@ -148,7 +148,7 @@ void Profile::save() const {
   const auto file = new_file_name(std::filesystem::current_path(unknown), std::chrono::system_clock::now(), ".csv");
   const std::string text = profile_csv(samples_);
   const Status saved = write_file(file, std::as_bytes(std::span(text)));
-  say(saved ? "Saved " + file.string() : saved.error().message);
+  saved ? say("Saved " + file.string()) : say(saved.error());
 }
 
 }  // namespace terrella

@@ -104,7 +104,7 @@ void Projects::save() {
   say("Saved " + file.string());
   for (const std::string& left_out : project.left_out) context_.messages.report(left_out);
   const Status kept = remember_opened(std::array{project_});
-  if (!kept) say(kept.error().message);
+  if (!kept) say(kept.error());
 }
 
 // A failure is reported once, because the scene then counts as kept.
@@ -117,7 +117,7 @@ void Projects::keep_session() {
   if (std::exchange(held_, false)) return;
   Status saved = write_kept_text(*file, kept_);
   if (saved) saved = write_kept_text(*session_file(context_.globe.options().body), kept_);
-  if (!saved) say(saved.error().message);
+  if (!saved) say(saved.error());
 }
 
 std::optional<fs::path> session_file() {

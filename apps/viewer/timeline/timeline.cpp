@@ -69,7 +69,7 @@ void Timeline::go(UtcTime time) {
     if (!layer.steps->at_or_before(time)) continue;  // a layer that begins later stays as it is
     if (const Status set = context_.globe.set_layer_time(layer.id, time); !set) {
       play(false);
-      return say(set.error().message);
+      return say(set.error());
     }
   }
   asked_ = time;

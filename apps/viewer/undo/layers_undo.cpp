@@ -80,7 +80,7 @@ void Layers::undo() {
   if (auto* look = std::get_if<LookStep>(step)) show_states(look->before);
   if (auto* move = std::get_if<MoveStep>(step)) move_back(*move, !move->up);
   if (auto* removed = std::get_if<RemoveStep>(step)) {
-    if (const Status returned = bring_back(*removed); !returned) say(returned.error().message);
+    if (const Status returned = bring_back(*removed); !returned) say(returned.error());
   }
   forget_looks();
 }
@@ -108,7 +108,7 @@ void Layers::show_states(const std::vector<LayerState>& states) {
     if (row->numbers) row->numbers->colormap = state.colormap;
     if (!row->style || !state.style || row->style->drawn().number == state.style->number) continue;
     const Status restored = row->style->restore(context_.globe, row->id, *state.style);
-    if (!restored) say(restored.error().message);
+    if (!restored) say(restored.error());
   }
 }
 
