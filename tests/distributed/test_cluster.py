@@ -133,7 +133,7 @@ class Cut(ClusterTest):
                 while self.descriptors(path) < 2:
                     time.sleep(0.005)
                 os.unlink(path)
-                again = open(path, "w")  # of another run, which does this part
+                again = open(path, "w")  # another run does this part
                 fcntl.flock(again, fcntl.LOCK_EX)
             while self.descriptors(path) < 2:
                 time.sleep(0.005)
@@ -143,7 +143,7 @@ class Cut(ClusterTest):
         self.assertTrue((self.folder / "out.gpkg.shard-2-of-2").exists())
 
     def descriptors(self, path):
-        """How many descriptors of this process are open at a path."""
+        """Number of descriptors that this process has open at a path."""
         names = []
         for descriptor in pathlib.Path("/proc/self/fd").iterdir():
             with contextlib.suppress(OSError):
