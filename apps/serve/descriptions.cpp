@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "apps/process/console.h"
+#include "geo/body.h"
 #include "streaming/convert/web_tiles.h"
 #include "streaming/georeference/crs_text.h"
 #include "streaming/remote/crs_names.h"
@@ -16,6 +19,7 @@
 #include "streaming/remote/wmts/wmts_projected.h"
 #include "streaming/sets/gpkg_schema.h"
 #include "streaming/sets/tileset_json.h"
+#include "streaming/warp/web_mercator.h"
 #include "tiles/tile_range.h"
 
 namespace terrella {
@@ -41,11 +45,34 @@ std::string markup(std::string_view text) {
 
 std::string title_of(const ServedSet& set) { return set.info().name.empty() ? set.name : set.info().name; }
 
-/// Area in degrees, without a crossing of ±180°.
-GeoRect plain_bounds(const TileGrid& grid) {
-  if (grid.projection == Projection::web_mercator) return web_bounds(grid);
-  if (grid.projection == Projection::projected) return {};
-  GeoRect bounds = grid.bounds;
+/// A sentence for people about tiles that are numbers, which other programs take for pictures; empty for pictures.
+std::string note_of(const TileSetInfo& info) {
+  if (!info.numbers) return {};
+  const NumberInfo& numbers = *info.numbers;
+  const char* kind = "16-bit gray";
+  if (numbers.is_signed) kind = "signed 16-bit gray";
+  if (numbers.rgb) kind = "R * 65536 + G * 256 + B";
+  if (numbers.floats) kind = "32-bit float";
+  std::string note =
+      fmt::format("The tiles are numbers, not pictures: {} = {} * ({}) + {}",
+                  numbers.quantity.empty() ? "value" : numbers.quantity, numbers.scale, kind, numbers.offset);
+  if (!numbers.unit.empty()) note += ", in " + numbers.unit;
+  if (numbers.nodata) note += fmt::format("; {} is no data", *numbers.nodata);
+  return note;
+}
+
+bool is_of_earth(const TileSetInfo& info) {
+  constexpr double kSlack = 0.01;  // spheres and other ellipsoids of the Earth; Venus is 5 % smaller
+  const auto body = parse_body(info.body.empty() ? "earth" : info.body), earth = parse_body("earth");
+  return body && earth && std::abs(body->ellipsoid.a_m() / earth->ellipsoid.a_m() - 1.0) < kSlack;
+}
+
+/// Area in degrees, without a crossing of ±180°. None if it is unknown.
+std::optional<GeoRect> plain_bounds(const TileSetInfo& info) {
+  if (info.grid.projection == Projection::web_mercator) return web_bounds(info.grid);
+  const auto drawn = drawn_grid_of(info);
+  if (!drawn) return {};
+  GeoRect bounds = drawn->bounds;
   if (bounds.east < bounds.west) std::tie(bounds.west, bounds.east) = std::pair(GeoRect{}.west, GeoRect{}.east);
   return bounds;
 }
@@ -76,6 +103,7 @@ Result<MatrixSystem> projected_system(const std::string& text) {
 Result<MatrixSystem> system_of(const TileSetInfo& info) {
   switch (info.grid.projection) {
     case Projection::web_mercator:
+      if (!is_of_earth(info)) return Error{"its body is not the Earth, the only one with a registered Web Mercator"};
       return MatrixSystem{.urn = "urn:ogc:def:crs:EPSG::3857"};
     case Projection::projected:
       return projected_system(info.square->crs);
@@ -110,17 +138,24 @@ std::string matrix_xml(const TileSetInfo& info, int level, const MatrixSystem& s
 }
 
 std::string layer_xml(const ServedSet& set, std::string_view base) {
-  const GeoRect bounds = plain_bounds(set.info().grid);
   const char* type = media_type(set.info());
+  std::string head = fmt::format("<ows:Title>{}</ows:Title>", markup(title_of(set)));
+  const std::string note = note_of(set.info());
+  if (!note.empty()) head += fmt::format("<ows:Abstract>{}</ows:Abstract>", markup(note));
+  if (const auto bounds = plain_bounds(set.info())) {
+    head += fmt::format(
+        "<ows:WGS84BoundingBox><ows:LowerCorner>{} {}</ows:LowerCorner>"
+        "<ows:UpperCorner>{} {}</ows:UpperCorner></ows:WGS84BoundingBox>",
+        tidy_degrees(bounds->west), tidy_degrees(bounds->south), tidy_degrees(bounds->east),
+        tidy_degrees(bounds->north));
+  }
   return fmt::format(
-      "<Layer><ows:Title>{}</ows:Title><ows:WGS84BoundingBox><ows:LowerCorner>{} {}</ows:LowerCorner>"
-      "<ows:UpperCorner>{} {}</ows:UpperCorner></ows:WGS84BoundingBox><ows:Identifier>{}</ows:Identifier>\n"
+      "<Layer>{}<ows:Identifier>{}</ows:Identifier>\n"
       "<Style isDefault=\"true\"><ows:Identifier>default</ows:Identifier></Style><Format>{}</Format>"
       "<TileMatrixSetLink><TileMatrixSet>{}</TileMatrixSet></TileMatrixSetLink>\n"
       "<ResourceURL format=\"{}\" resourceType=\"tile\" "
       "template=\"{}/{}/wmts/{{TileMatrixSet}}/{{TileMatrix}}/{{TileRow}}/{{TileCol}}.{}\"/></Layer>\n",
-      markup(title_of(set)), tidy_degrees(bounds.west), tidy_degrees(bounds.south), tidy_degrees(bounds.east),
-      tidy_degrees(bounds.north), set.name, type, set.name, type, markup(base), set.name, tile_ending(set.info()));
+      head, set.name, type, set.name, type, markup(base), set.name, tile_ending(set.info()));
 }
 
 std::string matrix_set_xml(const ServedSet& set, const MatrixSystem& system) {
@@ -160,7 +195,7 @@ ordered_json addresses(const ServedSet& set, std::string_view base) {
   ordered_json all{{"xyz", tile_template(set, base)},
                    {"tms", fmt::format("{}/tms/{{z}}/{{x}}/{{y}}.{}", from, ending)}};
   if (system_of(set.info())) all["wmts"] = from + "/wmts/1.0.0/WMTSCapabilities.xml";
-  if (set.info().grid.projection == Projection::web_mercator) all["tilejson"] = from + "/tilejson.json";
+  if (tile_json(set, base)) all["tilejson"] = from + "/tilejson.json";
   if (set.archive) all["pmtiles"] = from + ".pmtiles";
   return all;
 }
@@ -190,9 +225,10 @@ std::string pictures(const ServedSet& set, std::string_view base) {
 std::string section(const ServedSet& set, std::string_view base) {
   const TileGrid& grid = set.info().grid;
   const int zoom = first_zoom(set.info());
-  std::string html = fmt::format("<h2>{}</h2>\n<p>{}</p>\n<p>levels {} to {}, {} pixels a tile, {}</p>\n<dl>",
-                                 markup(title_of(set)), markup(set.info().attribution), grid.min_level + zoom,
-                                 grid.max_level + zoom, grid.tile_px, media_type(set.info()));
+  std::string html =
+      fmt::format("<h2>{}</h2>\n<p>{}</p>\n<p>{}</p>\n<p>levels {} to {}, {} pixels a tile, {}</p>\n<dl>",
+                  markup(title_of(set)), markup(set.info().attribution), markup(note_of(set.info())),
+                  grid.min_level + zoom, grid.max_level + zoom, grid.tile_px, media_type(set.info()));
   const ordered_json listed = addresses(set, base);
   for (const auto& [kind, address] : listed.items()) {
     const std::string shown = markup(address.get<std::string>());
@@ -238,10 +274,14 @@ Result<std::string> tile_json(const ServedSet& set, std::string_view base) {
   if (grid.projection != Projection::web_mercator) {
     return Error{set.name + " has no TileJSON, which describes tiles in Web Mercator alone; read it as WMTS or XYZ"};
   }
+  if (!is_of_earth(set.info())) {
+    return Error{set.name + " has no TileJSON, which describes tiles of the Earth alone; read it as XYZ"};
+  }
   const GeoRect bounds = web_bounds(grid);
   const int zoom = first_zoom(set.info());
   return dump({{"tilejson", "3.0.0"},
                {"name", title_of(set)},
+               {"description", note_of(set.info())},
                {"attribution", set.info().attribution},
                {"scheme", "xyz"},
                {"tiles", {tile_template(set, base)}},

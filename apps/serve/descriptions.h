@@ -18,7 +18,7 @@ namespace terrella {
 /// that cannot be in one. Fails with the reason if no set is left.
 [[nodiscard]] Result<std::string> wmts_capabilities(std::span<const ServedSet> sets, std::string_view base);
 
-/// TileJSON 3.0. Fails with the reason for sets that are not in Web Mercator.
+/// TileJSON 3.0. Fails with the reason for sets that are not in Web Mercator of the Earth.
 [[nodiscard]] Result<std::string> tile_json(const ServedSet& set, std::string_view base);
 
 /// Exception of a WMTS, as XML.

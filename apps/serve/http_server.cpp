@@ -105,16 +105,20 @@ Result<Listener> listen_at(const HttpServerOptions& options) {
   const int code = getaddrinfo(options.host.c_str(), std::to_string(options.port).c_str(), &hints, &found);
   if (code != 0) return Error{fmt::format("{}: {}; name an address of this machine", options.host, gai_strerror(code))};
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> all(found, freeaddrinfo);
-  Listener listener{.socket = Descriptor(socket(all->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0))};
-  const int descriptor = listener.socket.number(), on = 1;
-  const bool listens = descriptor >= 0 && setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
-                       bind(descriptor, all->ai_addr, all->ai_addrlen) == 0 && listen(descriptor, kBacklog) == 0;
-  if (!listens) {
-    const int why = errno;
-    return Error{fmt::format("{} port {}: {}{}", options.host, options.port, std::strerror(why), cure_of(why))};
+  int why = 0;  // error of the last address tried
+  for (const addrinfo* one = all.get(); one != nullptr; one = one->ai_next) {
+    Listener listener{.socket = Descriptor(socket(one->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0))};
+    const int descriptor = listener.socket.number(), on = 1;
+    const bool listens = descriptor >= 0 && setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+                         bind(descriptor, one->ai_addr, one->ai_addrlen) == 0 && listen(descriptor, kBacklog) == 0;
+    if (listens) {
+      describe(listener);
+      return listener;
+    }
+    why = errno;
+    if (why == EADDRINUSE) break;  // else a second server of localhost would take the address that the first one left
   }
-  describe(listener);
-  return listener;
+  return Error{fmt::format("{} port {}: {}{}", options.host, options.port, std::strerror(why), cure_of(why))};
 }
 
 void add_fields(MHD_Response* response, const WebAnswer& answer) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/open_imagery.h"
 #include "apps/open_scene/open_rasters.h"
 #include "apps/serve/web_request.h"
@@ -82,6 +83,10 @@ Result<ServedSet> open_served_set(const std::string& path, std::string name) {
   if (is_remote(address)) {
     return Error{fmt::format("{}: tiles of a server are not passed on; fill a file with ‹preload› and serve that file",
                              address.redacted())};
+  }
+  std::error_code unknown;
+  if (names_dated_files(address) && !fs::exists(path, unknown)) {
+    return Error{path + ": a pattern names the files of many times; serve each file on its own, as NAME=FILE"};
   }
   if (names_mosaic(address) || is_picture(path)) {
     auto made = open_any_tiles({.address = address});

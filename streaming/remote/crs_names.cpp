@@ -51,7 +51,11 @@ std::string geographic_crs_urn(std::string_view body, LatitudeKind latitude) {
   const bool centric = latitude == LatitudeKind::centric;
   if (body.empty() || body == "earth") return centric ? "" : "urn:ogc:def:crs:OGC:1.3:CRS84";
   for (const NaifBody& known : kBodies) {
-    if (body == known.name) return fmt::format("urn:ogc:def:crs:IAU:2015::{}{}", known.number, centric ? "02" : "00");
+    if (body != known.name) continue;
+    // On a sphere both latitudes are equal, and the IAU has the code 00 alone.
+    const auto preset = parse_body(body);
+    const bool is_sphere = preset && preset->ellipsoid.f() == 0.0;
+    return fmt::format("urn:ogc:def:crs:IAU:2015:{}{}", known.number, centric && !is_sphere ? "02" : "00");
   }
   return {};
 }

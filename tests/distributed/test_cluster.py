@@ -122,6 +122,47 @@ class Cut(ClusterTest):
             running.result()
         self.assert_nothing_but("out.gpkg")
 
+    def test_a_part_that_waits_for_a_finished_run_writes_nothing(self):
+        plan = plan_cut(BLUE_MARBLE, output=self.folder / "out.gpkg", parts=2, tile_size=64)
+        locked = terrella.distributed._locked
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            with locked(plan, "1-of-2") as path:
+                waiting = pool.submit(terrella.distributed._work, plan, 1)
+                while self.descriptors(path) < 2:
+                    time.sleep(0.005)
+                os.unlink(path)
+            with self.assertRaisesRegex(terrella.Error, "out.gpkg: another run of this plan has finished"):
+                waiting.result()
+            self.assertFalse((self.folder / "out.gpkg.shard-1-of-2").exists())
+            with locked(plan, "2-of-2") as path:
+                waiting = pool.submit(terrella.distributed._work, plan, 2)
+                while self.descriptors(path) < 2:
+                    time.sleep(0.005)
+                os.unlink(path)
+                again = open(path, "w")  # another run does this part
+                fcntl.flock(again, fcntl.LOCK_EX)
+            while self.descriptors(path) < 2:
+                time.sleep(0.005)
+            self.assertFalse((self.folder / "out.gpkg.shard-2-of-2").exists())
+            again.close()
+            waiting.result()
+        self.assertTrue((self.folder / "out.gpkg.shard-2-of-2").exists())
+
+    def descriptors(self, path):
+        """Number of descriptors that this process has open at a path."""
+        names = []
+        for descriptor in pathlib.Path("/proc/self/fd").iterdir():
+            with contextlib.suppress(OSError):
+                names.append(os.readlink(descriptor))
+        return names.count(path)
+
+    def test_parts_of_other_plans_stay(self):
+        for parts in 2, 3:
+            terrella.distributed._work(plan_cut(BLUE_MARBLE, output=self.folder / "out.gpkg", parts=parts, tile_size=64), 1)
+        run(CLIENT, plan_cut(BLUE_MARBLE, output=self.folder / "out.gpkg", parts=2, tile_size=64))
+        self.assert_nothing_but("out.gpkg", "out.gpkg.shard-1-of-3", "out.gpkg.work")
+        self.assertEqual(os.listdir(self.folder / "out.gpkg.work"), ["1-of-3.lock"])
+
     def test_a_join_may_run_again(self):
         plan = plan_cut(BLUE_MARBLE, output=self.folder / "out.gpkg", parts=2, tile_size=64)
         for index in 1, 2:

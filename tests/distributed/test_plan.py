@@ -1,5 +1,6 @@
 """Plans of terrella.distributed: values that are made without a look at anything, and the need for Dask."""
 
+import pathlib
 import pickle
 import subprocess
 import sys
@@ -37,9 +38,9 @@ class Plans(unittest.TestCase):
 
     def test_parts_share_the_rate(self):
         for parts in 1, 7, 1000:
-            plan = plan_preload("s", output="c.gpkg", parts=parts, rate=70)
+            plan = plan_preload("/s", output="/c.gpkg", parts=parts, rate=70)
             self.assertAlmostEqual(sum(plan.task(k)["rate"] for k in range(1, parts + 1)), 70)
-        self.assertNotIn("rate", plan_preload("s", output="c.gpkg", parts=3, rate=None).task(1))
+        self.assertNotIn("rate", plan_preload("/s", output="/c.gpkg", parts=3, rate=None).task(1))
 
     def test_a_plan_looks_at_nothing(self):
         seen, watching = [], [False]
@@ -55,18 +56,33 @@ class Plans(unittest.TestCase):
         self.assertEqual(seen, ["open"])
 
     def test_wrong_plans_are_refused(self):
-        where = {"output": "o.gpkg", "parts": 3}
-        for says, make in [("parts 0", lambda: plan_cut("p", output="o", parts=0)),
-                           ("100000", lambda: plan_cut("p", output="o", parts=100_001)),
-                           ("shard", lambda: plan_cut("p", **where, shard=(1, 2))),
-                           ("join", lambda: plan_cut("p", **where, join=True)),
-                           ("fewer parts", lambda: plan_preload("s", **where, rate=0.02)),
-                           ("rate", lambda: plan_preload("s", **where, rate=float("nan"))),
-                           ("times", lambda: plan_preload("s", **where, rate=1, times="2026-06-01")),
-                           ("force", lambda: plan_film(flight="f", output="%d.png", parts=3, force=True)),
-                           ("%05d", lambda: plan_film(flight="f", output="film.mp4", parts=3))]:
+        where = {"output": "/o.gpkg", "parts": 3}
+        for says, make in [("parts 0", lambda: plan_cut("/p", output="/o", parts=0)),
+                           ("100000", lambda: plan_cut("/p", output="/o", parts=100_001)),
+                           ("shard", lambda: plan_cut("/p", **where, shard=(1, 2))),
+                           ("join", lambda: plan_cut("/p", **where, join=True)),
+                           ("fewer parts", lambda: plan_preload("/s", **where, rate=0.02)),
+                           ("rate", lambda: plan_preload("/s", **where, rate=float("nan"))),
+                           ("times", lambda: plan_preload("/s", **where, rate=1, times="2026-06-01")),
+                           ("force", lambda: plan_film(flight="/f", output="/%d.png", parts=3, force=True)),
+                           ("%05d", lambda: plan_film(flight="/f", output="/film.mp4", parts=3))]:
             with self.subTest(says), self.assertRaisesRegex(ValueError, says):
                 make()
+
+    def test_relative_paths_are_refused(self):
+        server = "http://127.0.0.1:9/{z}/{x}/{y}.jpg"
+        film = {"flight": "/f.geojson", "output": "/%d.png", "parts": 3}
+        for make in (lambda: plan_cut("/p", output="rel", parts=3),
+                     lambda: plan_cut("rel", output="/o", parts=3),
+                     lambda: plan_cut(["/p", pathlib.Path("rel")], output="/o", parts=3),
+                     lambda: plan_preload("rel", output="/o", parts=3, rate=None),
+                     lambda: plan_preload(server, output="rel", parts=3, rate=None),
+                     lambda: plan_film("rel", **film),
+                     lambda: plan_film(**film | {"flight": "rel"}),
+                     lambda: plan_film(**film | {"output": "rel%d.png"})):
+            with self.assertRaisesRegex(ValueError, "rel.*: each worker .* give an absolute path"):
+                make()
+        plan_film(server, **film)
 
     def test_without_dask_the_module_names_the_package(self):
         code = "import sys; sys.modules['distributed'] = None; import terrella; import terrella.distributed"

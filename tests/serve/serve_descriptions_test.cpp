@@ -1,9 +1,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "apps/serve/descriptions.h"
+#include "geo/body.h"
+#include "streaming/georeference/crs.h"
+#include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/wmts.h"
 #include "tests/serve/served_tiles.h"
 
@@ -71,6 +77,81 @@ TEST(WmtsCapabilities, DescribeProjectedSets) {
     EXPECT_NEAR(set.info.square->north, 3e6, 0.01);
     EXPECT_NEAR(set.info.square->unit_per_deg, 1000.0, 1e-5);
   }
+}
+
+TEST(WmtsCapabilities, HaveTheBoundsOfProjectedSets) {
+  TileSetInfo info = test::geodetic_info();
+  info.grid.projection = Projection::projected;
+  info.grid.root_span_deg = 360.0;
+  // From 400 to 760 km east and from 2640 to 3000 km north in UTM zone 32, whose meridian is 9° E: longitudes from 8.0
+  // to 11.6 and latitudes from 23.8 to 27.2.
+  info.square = CrsSquare{.crs = "EPSG:25832", .west = 4e5, .north = 3e6, .unit_per_deg = 1000.0};
+  constexpr double kMarginDeg = 1.0;  // the drawn grid is rounded to its tiles
+  const std::string xml = *wmts_capabilities(std::vector{served(info)}, kServer);
+  const auto corner = [&xml](const std::string& name) {
+    char* rest = nullptr;
+    const double x = std::strtod(xml.c_str() + xml.find(name) + name.size(), &rest);
+    return std::pair(x, std::strtod(rest, nullptr));
+  };
+  const auto [west, south] = corner("<ows:LowerCorner>");
+  const auto [east, north] = corner("<ows:UpperCorner>");
+  EXPECT_NEAR(west, 8.0, kMarginDeg);
+  EXPECT_NEAR(south, 23.8, kMarginDeg);
+  EXPECT_NEAR(east, 11.6, kMarginDeg);
+  EXPECT_NEAR(north, 27.2, kMarginDeg);
+}
+
+TEST(WmtsCapabilities, NameSystemsThatProjOpens) {
+  int named = 0;
+  for (const char* body : {"", "earth", "mercury", "venus", "moon", "phobos", "mars", "jupiter", "saturn"}) {
+    for (const LatitudeKind latitude : {LatitudeKind::graphic, LatitudeKind::centric}) {
+      const std::string urn = geographic_crs_urn(body, latitude);
+      if (urn.empty()) continue;
+      ++named;
+      const auto crs = Crs::open(urn);
+      EXPECT_TRUE(crs.ok()) << urn << (crs ? "" : ": " + crs.error().message);
+      const auto parsed = parse_crs(urn);
+      ASSERT_TRUE(parsed.ok()) << urn;
+      if (parse_body(parsed->body)->ellipsoid.f() > 0.0) {
+        EXPECT_EQ(parsed->latitude, latitude) << urn;
+      }
+    }
+  }
+  EXPECT_GE(named, 10);
+}
+
+TEST(Descriptions, OfWebMercatorAreOfTheEarth) {
+  TileSetInfo info = test::web_info();
+  for (const char* body : {"mars", "moon", "venus", "1000000,0"}) {
+    info.body = body;
+    const auto xml = wmts_capabilities(std::vector{served(info)}, kServer), json = tile_json(served(info), kServer);
+    ASSERT_FALSE(xml.ok()) << body;
+    EXPECT_NE(xml.error().message.find("XYZ"), std::string::npos);
+    ASSERT_FALSE(json.ok()) << body;
+    EXPECT_NE(json.error().message.find("XYZ"), std::string::npos);
+    const std::string addresses = addresses_json(std::vector{served(info)}, kServer, 1);
+    EXPECT_EQ(addresses.find("tilejson"), std::string::npos);
+    EXPECT_EQ(addresses.find("wmts"), std::string::npos);
+  }
+  for (const char* body : {"", "earth", "sphere"}) {
+    info.body = body;
+    EXPECT_TRUE(wmts_capabilities(std::vector{served(info)}, kServer).ok()) << body;
+    EXPECT_TRUE(tile_json(served(info), kServer).ok()) << body;
+  }
+}
+
+TEST(Descriptions, SayThatTilesAreNumbers) {
+  TileSetInfo info = test::web_info();
+  info.numbers = NumberInfo{.scale = 0.1, .offset = -10000.0, .rgb = true, .unit = "m", .quantity = "height"};
+  const std::string note =
+      "The tiles are numbers, not pictures: height = 0.1 * (R * 65536 + G * 256 + B) + -10000, in m";
+  const std::vector sets{served(info)};
+  for (const std::string& document :
+       {*wmts_capabilities(sets, kServer), *tile_json(sets[0], kServer), overview_page(sets, kServer)}) {
+    EXPECT_NE(document.find(note), std::string::npos) << document;
+  }
+  info.numbers.reset();
+  EXPECT_EQ(wmts_capabilities(std::vector{served(info)}, kServer)->find("Abstract"), std::string::npos);
 }
 
 TEST(WmtsCapabilities, RefuseWhatNoSystemDescribes) {

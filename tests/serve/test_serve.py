@@ -265,6 +265,7 @@ class Serve(ProgramTest):
         for arguments, says in (
                 (["http://user:word@127.0.0.1:1/{z}/{x}/{y}.png"], ["server", "terrella preload"]),
                 ([self.folder / "none.gpkg"], ["none.gpkg"]),
+                ([self.folder / "ice_{time}.tif"], ["ice_{time}.tif", "NAME=FILE"]),
                 ([self.folder / "numbers.tif"], ["numbers.tif", "terrella cut"]),
                 ([f"a/b={path}"], ["a/b="]),
                 ([f".a={path}"], [".a", "letters"]),

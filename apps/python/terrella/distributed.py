@@ -36,6 +36,8 @@ _Path = str | os.PathLike[str]
 _Remark = tuple[type[Warning], str]
 
 _MOST_PARTS = 100_000  # as `cut` takes
+_JOIN = "join"  # name of a lock
+_CACHE_ENDINGS = "", "-wal", "-shm", "-journal"  # as SQLite names its files
 _LEAST_RATE = 0.01  # requests per second, as `preload` takes
 
 
@@ -78,9 +80,11 @@ def plan_cut(image: _Path | list[_Path], *, output: _Path, parts: int, **options
     """Cuts a picture, its parts, a folder or a list. `options` are those of terrella.cut.
 
     A part has whole bands (8 rows of tiles). Parts beyond the number of bands, rows / (8 * tile_size), do nothing.
-    Raises ValueError for parts outside 1 to 100,000, and for options that the plan sets itself.
+    Raises ValueError for parts outside 1 to 100,000, relative paths, and options that the plan sets itself.
     """
     _refuse(options, "shard", "join", "keep_shards")
+    for path in image if isinstance(image, list) else [image]:
+        _check_place(path)
     return _plan("cut", output, parts, {"image": image, **options})
 
 
@@ -89,12 +93,16 @@ def plan_preload(source: _Path, *, output: _Path, parts: int, rate: float | None
 
     `rate` is the limit for the whole cluster, in requests per second with retries; None is no limit. Each part has
     rate / parts of it, so the limit holds for any number of workers. The full rate takes `parts` workers.
-    Raises ValueError for parts outside 1 to 100,000, less than 0.01 requests per second for each part, and options that
-    make no sense for a part.
+
+    A finished plan that is run again asks the server for every tile again, although the output has them. To extend an
+    output, plan only what is new, for example the levels that it lacks.
+    Raises ValueError for parts outside 1 to 100,000, relative paths, less than 0.01 requests per second for each part,
+    and options that make no sense for a part.
     """
     _refuse(options, "shard", "dry_run", "release", "times", "missing", "stored", "cache_size")
     if rate is not None and not rate >= _LEAST_RATE * parts:
         raise ValueError(f"rate {rate}: each of {parts} parts needs {_LEAST_RATE} requests per second; plan fewer parts")
+    _check_place(source)
     each = {} if rate is None else {"rate": rate / parts}
     return _plan("preload", output, parts, {"source": source, **options, **each})
 
@@ -102,12 +110,14 @@ def plan_preload(source: _Path, *, output: _Path, parts: int, rate: float | None
 def plan_film(tileset: _Path | None = None, *, flight: _Path, output: _Path, parts: int, **options: Any) -> Plan:
     """Renders the frames of a flight. `options` are those of terrella.film. Part I has every parts-th frame from I on.
 
-    Raises ValueError for parts outside 1 to 100,000, an output that is no pattern such as frames/%05d.png, and options
-    that the plan sets itself.
+    Raises ValueError for parts outside 1 to 100,000, relative paths, an output that is no pattern such as
+    /shared/frames/%05d.png, and options that the plan sets itself.
     """
     _refuse(options, "shard", "force")
     if "%" not in os.fspath(output):
-        raise ValueError(f"{os.fspath(output)}: tasks write frames; name them as frames/%05d.png")
+        raise ValueError(f"{os.fspath(output)}: tasks write frames; name them as /shared/frames/%05d.png")
+    for path in (flight,) if tileset is None else (tileset, flight):
+        _check_place(path)
     return _plan("film", output, parts, {"tileset": tileset, "flight": flight, **options})
 
 
@@ -137,7 +147,19 @@ def run(client: Client, plan: Plan, **submit: Any) -> Report:
 def _plan(command: str, output: _Path, parts: int, options: dict[str, Any]) -> Plan:
     if not 1 <= parts <= _MOST_PARTS:
         raise ValueError(f"parts {parts}: it takes 1 to {_MOST_PARTS}")
+    _check_path(output)
     return Plan(command=command, output=os.fspath(output).rstrip("/"), parts=parts, options=options)
+
+
+def _check_path(path: _Path) -> None:
+    if not os.path.isabs(path):
+        raise ValueError(f"{os.fspath(path)}: each worker has its own current folder; give an absolute path")
+
+
+def _check_place(place: _Path) -> None:
+    """Accepts addresses, and paths as _check_path() does."""
+    if "://" not in os.fspath(place):
+        _check_path(place)
 
 
 def _refuse(options: dict[str, Any], *names: str) -> None:
@@ -168,12 +190,37 @@ def _call(client: Client, function: Any, plan: Plan, remarks: dict[_Remark, None
 
 
 @contextlib.contextmanager
+def _locked(plan: Plan, name: str) -> Iterator[str]:
+    """Waits for a lock and gives its path. The owner of a lock may remove its file; those who wait then notice."""
+    path = f"{plan.work}/{name}.lock"
+    while True:
+        os.makedirs(plan.work, exist_ok=True)
+        try:
+            lock = open(path, "w")
+        except FileNotFoundError:  # the folder was removed again
+            continue
+        with lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if _is_at(path, lock.fileno()):
+                yield path
+                return
+        # All plans of an output share the lock of the join. A part's lock is removed with the part.
+        if name != _JOIN and not os.path.exists(path):
+            raise terrella.Error(f"{plan.output}: another run of this plan has finished meanwhile")
+
+
+def _is_at(path: str, descriptor: int) -> bool:
+    try:
+        return os.path.samestat(os.fstat(descriptor), os.stat(path))
+    except FileNotFoundError:
+        return False
+
+
+@contextlib.contextmanager
 def _alone(plan: Plan, name: str) -> Iterator[list[_Remark]]:
     """Waits until no other process does this part, as a worker may that the scheduler lost. Collects warnings."""
-    os.makedirs(plan.work, exist_ok=True)
     said: list[_Remark] = []
-    with open(f"{plan.work}/{name}.lock", "w") as lock, warnings.catch_warnings(record=True) as caught:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with _locked(plan, name), warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield said
         said.extend((warning.category, str(warning.message)) for warning in caught)
@@ -189,7 +236,7 @@ def _work(plan: Plan, index: int) -> tuple[dict[str, Any], list[_Remark]]:
 
 
 def _join(plan: Plan) -> tuple[dict[str, Any], list[_Remark]]:
-    with _alone(plan, "join") as said:
+    with _alone(plan, _JOIN) as said:
         if plan.command == "cut":
             return terrella.cut(**plan.options, output=plan.output, join=True, keep_shards=True), said
         caches: list[_Path] = [plan.part(index) for index in range(1, plan.parts + 1)]
@@ -199,9 +246,16 @@ def _join(plan: Plan) -> tuple[dict[str, Any], list[_Remark]]:
 
 
 def _clean(plan: Plan) -> tuple[None, list[_Remark]]:
-    """Removes what only an unfinished plan needs."""
+    """Removes what only an unfinished plan needs. Parts of other plans of the output stay."""
     output = pathlib.Path(plan.output)
     for index in range(1, plan.parts + 1):
-        shutil.rmtree(output.with_name(f"{output.name}.shard-{index}-of-{plan.parts}"), ignore_errors=True)
-    shutil.rmtree(plan.work, ignore_errors=True)
+        with _locked(plan, f"{index}-of-{plan.parts}") as lock:
+            shutil.rmtree(output.with_name(f"{output.name}.shard-{index}-of-{plan.parts}"), ignore_errors=True)
+            for ending in _CACHE_ENDINGS:
+                pathlib.Path(plan.part(index) + ending).unlink(missing_ok=True)
+            os.unlink(lock)
+    with _locked(plan, _JOIN) as lock:
+        os.unlink(lock)
+    with contextlib.suppress(OSError):  # another plan works there
+        os.rmdir(plan.work)
     return None, []
