@@ -116,7 +116,7 @@ std::string time_by_format(const std::string& name, const NameFormat& format) {
   // strptime() gives the fields of %s in local time, and its zone; those of all others have none.
   const std::time_t seconds = fields.tm_zone != nullptr ? std::mktime(&fields) : ::timegm(&fields);
   const auto time = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::from_time_t(seconds));
-  // It takes 31 February, too, and one digit for two.
+  // strptime() takes 31 February, too, and one digit for two.
   const Result<std::string> written = format_time(time, format.text);
   return written && *written == name ? time_text(time, format.precision, false) : std::string();
 }

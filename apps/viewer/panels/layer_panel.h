@@ -37,7 +37,7 @@ struct LayerRow {
   std::optional<NumberFacts> numbers = {};  ///< set for imagery of numbers
   std::string attribution = {};             ///< may be empty
   std::string problem = {};                 ///< last failure of a tile, while tiles are missing
-  std::string follow_fault = {};            ///< why the last frame could not adapt the layer to the view
+  std::string follow_fault = {};            ///< fault of the last frame, which could not adapt the layer to the view
   ImageLook look = {};                      ///< objects use `shown` and opacity, heights use `shown`
   FactsReader read_facts = {};              ///< reads the facts of a raster; empty for other layers
   std::shared_future<std::vector<std::string>> facts = {};          ///< begun when the row is first open
