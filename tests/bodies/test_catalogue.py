@@ -120,7 +120,7 @@ class Catalogue(WindowTest):
         self.shows(viewer, "earth", "", "Red of the Earth")
         viewer.panel("message")
         viewer.save_grab(self.folder / "not_in_a_cache.png")
-        self.assertEqual(viewer.quit(), 0)
+        self.assertEqual(viewer.quit(closing=1), 0)
 
     def test_a_faulty_entry_is_named_and_the_others_are_listed(self):
         self.write([{"title": "Nameless", "body": "moonn"}])
@@ -130,8 +130,7 @@ class Catalogue(WindowTest):
         viewer.save_grab(self.folder / "faulty.png")
         self.assertEqual(self.faults(viewer), [])
         self.assertIn("message", viewer.layout.panels)
-        viewer.key("Escape")
-        self.assertEqual(viewer.quit(), 0)
+        self.assertEqual(viewer.quit(closing=2), 0, "the fault and the panel")
 
     def test_the_lists_fit_two_sizes_of_window(self):
         for size in ((640, 480), (1280, 800)):

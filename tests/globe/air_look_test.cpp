@@ -157,7 +157,8 @@ TEST_F(AirLook, LeavesImageryItsOwnColoursAtNoon) {
   }
 }
 
-// Water has no air: over a sea floor the air is that over the sea's surface, but for rays that meet the floor further on.
+// Water has no air: over a sea floor the air is that over the sea's surface, but for rays that meet the floor further
+// on.
 TEST_F(AirLook, OverASeaFloorIsThatOverTheSea) {
   constexpr int kOff_levels = 8;
   GlobeOptions options;
