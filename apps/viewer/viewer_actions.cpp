@@ -36,8 +36,8 @@ void Viewer::turn(Viewer& viewer) {
   viewer.navigator_.pointer_up(PointerButton::right, Input::now());
 }
 
-// Esc closes a list of choices, which Dear ImGui does; or cancels a job, closes a fault or a panel or ends a tool. With
-// none of them, a second Esc quits.
+// Esc closes a list of choices, which Dear ImGui does; or cancels a job, closes a fault or a panel, ends a tool or
+// removes the mark of a search. With none of them, a second Esc quits.
 void Viewer::leave() {
   if (Ui::has_open_list()) return;
   const bool again = Clock::now() < std::exchange(quit_until_, Clock::time_point());
@@ -48,6 +48,7 @@ void Viewer::leave() {
   for (Part* part : parts_) {
     if (part->close()) return;
   }
+  if (search_.remove_mark()) return;
   if (again) return quit();
   quit_until_ = Clock::now() + kQuitTime;
   messages_.say("Press Esc again to quit", kQuitTime);

@@ -38,7 +38,8 @@ TEST(Catalogue, EveryEntryThatShipsIsWellFormed) {
   for (const CatalogueEntry& entry : catalogue.entries) {
     bodies.insert(entry.body.name);
     EXPECT_TRUE(names.insert(entry.body.name + entry.title).second) << entry.title << " is there twice";
-    EXPECT_EQ(entry.said.address.with_secrets().rfind("https://", 0), 0U) << entry.title;
+    const std::string address = entry.said.address.with_secrets();
+    EXPECT_TRUE(address.starts_with("https://") || address == "relief.gpkg") << entry.title << ": " << address;
     EXPECT_EQ(entry.said.address.with_secrets(), entry.said.address.redacted()) << entry.title << " has a secret";
   }
   for (const char* body : {"earth", "moon", "mars", "mercury"}) EXPECT_TRUE(bodies.contains(body)) << body;

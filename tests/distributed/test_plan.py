@@ -34,7 +34,7 @@ class Plans(unittest.TestCase):
         self.assertEqual(len({preload.task(k)["output"] for k in range(1, 8)}), 7)
 
     def test_work_lies_beside_a_folder(self):
-        self.assertEqual(plan_cut("p", output="/there/tiles/", parts=2).work, "/there/tiles.work")
+        self.assertEqual(plan_cut("/p", output="/there/tiles/", parts=2).work, "/there/tiles.work")
 
     def test_parts_share_the_rate(self):
         for parts in 1, 7, 1000:

@@ -118,7 +118,7 @@ class Timeline(WindowTest):
         viewer = self.start("--unlit")
         viewer.settled()
         viewer.key("a")
-        viewer.panel("message")  # it says what is missing
+        viewer.panel("message")  # tells what is missing
         self.assertNotIn("Dates", viewer.layout.panels)
 
 

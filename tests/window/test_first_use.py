@@ -181,7 +181,7 @@ class FirstUse(WindowTest):
         self.save_a_picture()
         self.viewer.key("Escape")  # the layers
         time.sleep(0.3)
-        self.assertEqual(self.viewer.quit(), 0)
+        self.assertEqual(self.viewer.quit(closing=1), 0, "the mark of the search")
         kept = json.loads(self.settings.read_text(encoding="utf-8"))
         self.assertEqual((kept["width"], kept["height"], kept["graticule"]), (WIDTH, HEIGHT, True))
         self.viewer = self.start(size=None, bare=False)

@@ -71,13 +71,6 @@ std::string Search::place_shown() {
   return place == nullptr ? std::string() : full_name(*place);
 }
 
-bool Search::close() {
-  if (Panel::close()) return true;
-  if (!mark_) return false;
-  remove_mark();
-  return true;
-}
-
 void Search::toggled() {
   text_.clear();
   if (is_open()) remove_mark();
@@ -172,10 +165,11 @@ Status Search::mark(const NamedPlace& place) {
   return Done{};
 }
 
-void Search::remove_mark() {
-  if (!mark_) return;
+bool Search::remove_mark() {
+  if (!mark_) return false;
   const Status removed = context_.globe.remove(*std::exchange(mark_, std::nullopt));
   if (!removed) say(removed.error());
+  return true;
 }
 
 }  // namespace terrella

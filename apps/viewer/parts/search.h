@@ -23,7 +23,7 @@ class Search : public Panel {
       : Panel(context, "Search"), file_(std::move(places)), finest_texel_m_(std::move(finest_texel_m)) {}
 
   void take_keyboard() override;
-  bool close() override;
+  bool remove_mark();  ///< false if no place is marked
   /// Name of the place in the middle of the view, with its country; empty if none is known. Loads the list of places.
   [[nodiscard]] std::string place_shown();
 
@@ -36,7 +36,6 @@ class Search : public Panel {
   [[nodiscard]] std::optional<NamedPlace> draw_found(bool entered) const;
   void fly_to(const NamedPlace& place);
   Status mark(const NamedPlace& place);
-  void remove_mark();
 
   std::filesystem::path file_;
   FinestTexel finest_texel_m_;
