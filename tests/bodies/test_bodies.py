@@ -124,8 +124,9 @@ class Bodies(WindowTest):
             self.no_question(viewer)
         self.shows(viewer, "earth", "")
         viewer.drop(self.moon, self.raster("other.tif", MOON, (-10, 10, 10, -10)))
+        self.question(viewer)
+        viewer.settled(still_s=1.0)  # both files are read, and the panel has moved for the second one
         left, top = self.question(viewer)
-        wait_until("a question about both", lambda: viewer.layout.panels["Another body"])
         viewer.click(left + HERE[0], top + HERE[1])
         self.shows(viewer, "earth", "", "crater.tif", "other.tif")
         self.no_question(viewer)
