@@ -122,6 +122,17 @@ class Catalogue(WindowTest):
         viewer.save_grab(self.folder / "not_in_a_cache.png")
         self.assertEqual(viewer.quit(closing=1), 0)
 
+    def test_the_included_heights_return_without_a_path(self):
+        viewer = self.start(bare=False)
+        left, top = self.open_list(viewer, "included")
+        viewer.click(left + FIRST_ENTRY[0], top + FIRST_ENTRY[1])
+        for closing in (1, 0):
+            wait_until("heights", lambda: self.session.exists() and
+                       json.loads(self.session.read_text())["layers"] == [{"kind": "heights"}, {"kind": "imagery"}])
+            viewer.settled()
+            self.assertEqual(viewer.quit(closing), 0)
+            viewer = self.start(bare=False)
+
     def test_a_faulty_entry_is_named_and_the_others_are_listed(self):
         self.write([{"title": "Nameless", "body": "moonn"}])
         viewer = self.start(bare=False)
