@@ -10,23 +10,14 @@
 #include <cerrno>
 #include <cstring>
 
+#include "streaming/descriptor.h"
+
 namespace terrella {
 namespace {
 
-class OpenFile {
- public:
-  explicit OpenFile(const std::filesystem::path& path)
-      : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
+Descriptor open_file(const std::filesystem::path& path) {
+  return Descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+}
 
 FileError system_error(const std::filesystem::path& path, int code) {
   const bool missing = code == ENOENT || code == ENOTDIR;
@@ -37,11 +28,11 @@ FileError system_error(const std::filesystem::path& path, int code) {
 using Bytes = Result<std::vector<std::byte>, FileError>;
 
 /// Reads `size` bytes, or fewer if the file ends before.
-Bytes read_bytes(const OpenFile& file, const std::filesystem::path& path, std::size_t size) {
+Bytes read_bytes(const Descriptor& file, const std::filesystem::path& path, std::size_t size) {
   std::vector<std::byte> bytes(size);
   std::size_t filled = 0;
   while (filled < size) {
-    const ssize_t got = read(file.descriptor(), bytes.data() + filled, size - filled);
+    const ssize_t got = read(file.number(), bytes.data() + filled, size - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error(path, errno);
     if (got == 0) break;
@@ -52,10 +43,10 @@ Bytes read_bytes(const OpenFile& file, const std::filesystem::path& path, std::s
 }
 
 /// Size of a regular file.
-Result<std::size_t, FileError> size_of(const OpenFile& file, const std::filesystem::path& path) {
-  if (file.descriptor() < 0) return system_error(path, errno);
+Result<std::size_t, FileError> size_of(const Descriptor& file, const std::filesystem::path& path) {
+  if (file.number() < 0) return system_error(path, errno);
   struct stat status {};
-  if (fstat(file.descriptor(), &status) != 0) return system_error(path, errno);
+  if (fstat(file.number(), &status) != 0) return system_error(path, errno);
   // A pipe or device in place of a tile would block a worker forever.
   if (!S_ISREG(status.st_mode)) return FileError{FileProblem::unreadable, path.string() + ": not a regular file"};
   return static_cast<std::size_t>(status.st_size);
@@ -64,7 +55,7 @@ Result<std::size_t, FileError> size_of(const OpenFile& file, const std::filesyst
 }  // namespace
 
 Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
-  const OpenFile file(path);
+  const Descriptor file = open_file(path);
   const Result<std::size_t, FileError> size = size_of(file, path);
   if (!size) return size.error();
   if (*size > max_bytes) {
@@ -75,7 +66,7 @@ Result<std::vector<std::byte>, FileError> read_file(const std::filesystem::path&
 }
 
 Result<std::vector<std::byte>, FileError> read_head(const std::filesystem::path& path, std::size_t max_bytes) {
-  const OpenFile file(path);
+  const Descriptor file = open_file(path);
   const Result<std::size_t, FileError> size = size_of(file, path);
   if (!size) return size.error();
   return read_bytes(file, path, std::min(*size, max_bytes));

@@ -16,8 +16,8 @@
 #include "apps/open_scene/passed_tiles.h"
 #include "base/iso_time.h"
 #include "base/time_steps.h"
+#include "streaming/remote/describe_remote.h"
 #include "streaming/remote/tile_set_time.h"
-#include "streaming/remote/web_address.h"
 #include "streaming/sets/open_tile_set.h"
 
 namespace terrella {
@@ -30,6 +30,7 @@ struct DatedSet {
   std::string name;
   std::map<UtcTime, fs::path> files;
   std::shared_ptr<const TimeSteps> steps;
+  std::string times;  ///< summary of the steps
   OpenDatedFile open;
 };
 
@@ -57,7 +58,7 @@ Result<std::unique_ptr<TileSource>> open_step(const std::shared_ptr<const DatedS
   if (!tiles) return tiles.error();
   TileSetInfo info = (*tiles)->info();
   info.time = steps.text(*step);
-  info.times = steps.summary();
+  info.times = set->times;
   info.instant = step;
   info.steps = set->steps;
   return std::unique_ptr<TileSource>(std::make_unique<DatedTiles>(*std::move(tiles), std::move(info), set));
@@ -150,10 +151,8 @@ Result<TimeInName> reader_of(const std::string& pattern) {
 
 bool names_dated_files(const Url& address) {
   const std::string& text = address.with_secrets();
-  const std::string name = fs::path(text).filename().string();
   std::error_code failed;
-  return (name.find(kPlain) != name.npos || name.find(kWithFormat) != name.npos) && !is_remote(address) &&
-         !fs::exists(text, failed);
+  return has_time(fs::path(text).filename().string()) && !is_remote(address) && !fs::exists(text, failed);
 }
 
 Result<std::vector<DatedFile>> find_dated_files(const fs::path& pattern) {
@@ -173,7 +172,8 @@ Result<std::vector<DatedFile>> find_dated_files(const fs::path& pattern) {
 Result<std::shared_ptr<TileSource>> open_dated_files(const std::string& name, const std::vector<DatedFile>& files,
                                                      const std::string& time, OpenDatedFile open) {
   if (files.empty()) return Error{name + ": no file has such a name"};
-  auto set = std::make_shared<DatedSet>(DatedSet{.name = name, .files = {}, .steps = {}, .open = std::move(open)});
+  auto set = std::make_shared<DatedSet>(
+      DatedSet{.name = name, .files = {}, .steps = {}, .times = {}, .open = std::move(open)});
   std::vector<std::string> times;
   times.reserve(files.size());
   for (const DatedFile& dated : files) {
@@ -188,6 +188,7 @@ Result<std::shared_ptr<TileSource>> open_dated_files(const std::string& name, co
   Result<TimeSteps> read = TimeSteps::parse(times, UtcTime());
   if (!read) return Error{fmt::format("{}: {}", name, read.error().message)};
   set->steps = std::make_shared<const TimeSteps>(*std::move(read));
+  set->times = set->steps->summary();
   const auto wanted = read_named_time(time);
   auto tiles = open_step(set, wanted ? wanted->from : set->steps->last());
   if (!tiles) return tiles.error();

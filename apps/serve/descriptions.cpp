@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "geo/body.h"
 #include "streaming/convert/web_tiles.h"
 #include "streaming/georeference/crs_text.h"
+#include "streaming/georeference/figure.h"
 #include "streaming/remote/crs_names.h"
 #include "streaming/remote/wmts/ogc_choices.h"
 #include "streaming/remote/wmts/wmts_projected.h"
@@ -62,9 +62,8 @@ std::string note_of(const TileSetInfo& info) {
 }
 
 bool is_of_earth(const TileSetInfo& info) {
-  constexpr double kSlack = 0.01;  // spheres and other ellipsoids of the Earth; Venus is 5 % smaller
-  const auto body = parse_body(info.body.empty() ? "earth" : info.body), earth = parse_body("earth");
-  return body && earth && std::abs(body->ellipsoid.a_m() / earth->ellipsoid.a_m() - 1.0) < kSlack;
+  const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
+  return body && !are_two_bodies(*body, earth());
 }
 
 /// Area in degrees, without a crossing of ±180°. None if it is unknown.

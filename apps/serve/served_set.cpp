@@ -84,8 +84,7 @@ Result<ServedSet> open_served_set(const std::string& path, std::string name) {
     return Error{fmt::format("{}: tiles of a server are not passed on; fill a file with ‹preload› and serve that file",
                              address.redacted())};
   }
-  std::error_code unknown;
-  if (names_dated_files(address) && !fs::exists(path, unknown)) {
+  if (names_dated_files(address)) {
     return Error{path + ": a pattern names the files of many times; serve each file on its own, as NAME=FILE"};
   }
   if (names_mosaic(address) || is_picture(path)) {

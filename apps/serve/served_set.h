@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/serve/descriptor.h"
 #include "base/result.h"
+#include "streaming/descriptor.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {

@@ -13,6 +13,7 @@
 
 #include "apps/serve/descriptions.h"
 #include "codecs/image.h"
+#include "streaming/cut/halve.h"
 #include "streaming/file_bytes.h"
 #include "streaming/remote/web_address.h"
 #include "streaming/sets/tile_check.h"
@@ -69,13 +70,6 @@ std::string_view without_ending(std::string_view name) {
   return dot != name.npos && is_picture_ending(name.substr(dot + 1)) ? name.substr(0, dot) : std::string_view();
 }
 
-bool is_opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] != 255) return false;
-  }
-  return true;
-}
-
 /// Media type by the first bytes, whatever the set states; empty if they are none of a tile.
 Result<const char*> type_of(std::span<const std::byte> bytes, const TileSetInfo& info) {
   const bool floats = info.numbers && info.numbers->floats;
@@ -93,7 +87,7 @@ Result<std::vector<std::byte>, TileFailure> encoded(EncodedTile tile) {
   if (!tile.make_picture) return std::move(tile.bytes);
   const auto picture = tile.make_picture();
   if (!picture) return picture.error();
-  auto bytes = is_opaque(*picture) ? encode_jpeg(*picture, kJpegQuality) : encode_png(*picture);
+  auto bytes = are_opaque(picture->rgba) ? encode_jpeg(*picture, kJpegQuality) : encode_png(*picture);
   if (!bytes) return TileFailure{MissingKind::failed, bytes.error().message};
   return *std::move(bytes);
 }

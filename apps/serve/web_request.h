@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/serve/descriptor.h"
 #include "streaming/byte_range.h"
+#include "streaming/descriptor.h"
 
 // thread: any, for all of this header
 namespace terrella {

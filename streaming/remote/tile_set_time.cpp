@@ -68,10 +68,6 @@ std::optional<std::string> text_of_code(char code, const TimeFields& time) {
   }
 }
 
-bool has_time(std::string_view url) {
-  return url.find("{time}") != std::string_view::npos || url.find("{time:") != std::string_view::npos;
-}
-
 /// The instant that a time names, the last step for "current" and the like; none for "default", which a server may mean
 /// as it likes.
 std::optional<UtcTime> instant_named(const TimeSteps& steps, const std::string& time) {
@@ -133,6 +129,10 @@ Result<RemoteTileSet> at_time(const RemoteTileSet& set, UtcTime time) {
     other.missing_life = newest ? std::optional(kNewestMissingLife) : std::nullopt;
   }
   return other;
+}
+
+bool has_time(std::string_view text) {
+  return text.find("{time}") != std::string_view::npos || text.find("{time:") != std::string_view::npos;
 }
 
 bool is_time_placeholder(std::string_view name) { return name == kTime || name.starts_with(kTimeFormat); }

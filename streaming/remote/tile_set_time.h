@@ -27,6 +27,8 @@ inline constexpr std::chrono::seconds kNewestMissingLife{3600};
 /// Sets steps, times and instant of a description.
 void set_steps(TimeSteps steps, TileSetInfo& info);
 
+/// True for a text with a placeholder of a time: {time} or {time:FORMAT}.
+[[nodiscard]] bool has_time(std::string_view text);
 /// True for the names of placeholders of a time: "time" and "time:FORMAT".
 [[nodiscard]] bool is_time_placeholder(std::string_view name);
 /// Reason why a placeholder has no text, which names the unknown code of its FORMAT; empty: it has, or is none of time.

@@ -1,4 +1,4 @@
-#include "apps/process/data_dir.h"
+#include "apps/open_scene/project/read_project.h"
 
 #include <fmt/format.h>
 

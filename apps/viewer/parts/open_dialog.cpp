@@ -23,6 +23,9 @@ constexpr float kLeastRows = 3.0F, kMostRows = 12.0F;
 
 bool is_address(const std::string& text) { return text.find("://") != text.npos; }
 
+/// True for an address, and for the pattern of dated files: neither is the name of a file.
+bool names_no_file(const std::string& text) { return is_address(text) || names_dated_files(Url(text)); }
+
 bool begins_with(const std::string& name, const std::string& start) {
   return name.size() >= start.size() && std::equal(start.begin(), start.end(), name.begin(), [](char a, char b) {
            return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -117,7 +120,7 @@ void OpenDialog::typed() {
 /// has it.
 void OpenDialog::take(const std::string& text) {
   if (text.empty()) return;
-  if (is_address(text) || names_dated_files(Url(text))) return choose(text);
+  if (names_no_file(text)) return choose(text);
   const fs::path path = path_of(text);
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) {
@@ -184,7 +187,7 @@ void OpenDialog::draw_recent() {
     if (row == Row::marked) text_ = path;
     std::error_code unknown;
     if (row != Row::chosen) continue;
-    if (is_address(path) || names_dated_files(Url(path)) || fs::exists(path, unknown)) return choose(path);
+    if (names_no_file(path) || fs::exists(path, unknown)) return choose(path);
     problem_ = path + ": this file is not there any more; choose another one";
   }
 }
