@@ -205,13 +205,27 @@ class Viewer:
         self.move(x, y)
         self.xdotool("click", "3")
 
+    def is_busy(self):
+        """True while the viewer's frame loop runs, draws, or waits for a processor: events may not have acted yet."""
+        for task in Path(f"/proc/{self.program.pid}/task").iterdir():
+            try:
+                _, name, state = re.split(r"[()]+", (task / "stat").read_text(encoding="ascii"))
+            except FileNotFoundError:
+                continue  # this thread has ended
+            draws = task.name == str(self.program.pid) or name.startswith("llvmpipe")
+            if draws and state.split()[0] in "RD":
+                return True
+        return False
+
     def settled(self, rows=None, still_s=0.15):
-        """The picture once tiles and panels stand still, in the first rows."""
+        """The picture once tiles and panels stand still, in the first rows; all events so far have acted."""
 
         def same():
+            if self.is_busy():
+                return None
             one = self.grab()
             time.sleep(still_s)
-            return one if differing(one, self.grab(), rows) == 0 else None
+            return one if not self.is_busy() and differing(one, self.grab(), rows) == 0 else None
 
         return wait_until("a picture at rest", same)
 
