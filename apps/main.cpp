@@ -10,6 +10,7 @@
 #include "apps/process/process.h"
 #include "apps/program/command_line.h"
 #include "apps/program/commands.h"
+#include "apps/program/task_file.h"
 
 namespace {
 
@@ -37,6 +38,7 @@ int run_program(int argc, char** argv) {
   add_convert_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
+  for (const char* command : {"cut", "preload"}) add_task_option(*app.get_subcommand(command));
   return run_command_line(app, std::vector<std::string>(argv + 1, argv + argc), exit_code);
 }
 

@@ -36,6 +36,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "  terrella preload wmts.json --times 2026-06-01/2026-06-30/P1D --bbox 5,43,17,49 -o june.gpkg\n"
+    "  terrella preload --task alps.json\n"
     "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
 

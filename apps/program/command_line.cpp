@@ -12,6 +12,7 @@
 
 #include "apps/process/console.h"
 #include "apps/program/commands.h"
+#include "apps/program/task_file.h"
 #include "apps/viewer/tools/folder_list.h"
 
 namespace terrella {
@@ -113,8 +114,13 @@ int fail(const char* command, const std::string& why) {
 }
 
 int run_command_line(CLI::App& app, std::vector<std::string> arguments, const int& exit_code) {
+  auto stated = with_task(app, std::move(arguments));
+  if (!stated) {
+    print_message("terrella: {}\n", stated.error().message);
+    return kWrongUsage;
+  }
   try {
-    app.parse(reversed_arguments(app, std::move(arguments)));
+    app.parse(reversed_arguments(app, *std::move(stated)));
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return report_parse(app, error);

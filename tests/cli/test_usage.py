@@ -1,9 +1,12 @@
 """Wrong command lines: exit code 2, a message that names the option, and no other effect."""
 
+import json
 import re
+import shutil
 import subprocess
 import unittest
 
+import pictures
 from program import FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE, ProgramTest, subcommands
 
 
@@ -207,6 +210,67 @@ class Ranges(ProgramTest):
                               ("--body", "saturn"), ("--body", "3396190,0.00588600756")]:
             with self.subTest(option=option, value=value):
                 self.assert_fails(FAILED, "render", "missing.gpkg", "-o", "x.png", option, value, says=["missing.gpkg"])
+
+
+class Tasks(ProgramTest):
+    """A task file does the work of the command line that it states."""
+
+    def task(self, **keys):
+        (self.folder / "task.json").write_text(json.dumps(keys), encoding="utf-8")
+        return "task.json"
+
+    def picture(self, name):
+        (self.folder / name).write_bytes(pictures.png(512, 256, (200, 90, 40)))
+        return name
+
+    def tree(self, folder):
+        root = self.folder / folder
+        return {file.relative_to(root): file.read_bytes() for file in root.rglob("*") if file.is_file()}
+
+    def test_a_cut_is_that_of_the_same_options(self):
+        words = ["--tile-size=64", "--bounds=5,43,17,49", "--format=png", "--name=-7", "--force"]
+        self.assert_done("cut", self.picture("a.png"), "-o", "by_words", *words)
+        task = self.task(command="cut", image="a.png", output="by_task", bounds=[5, 43, 17, 49], format="png", name="-7",
+                         force=True, join=False, **{"tile-size": 64})
+        self.assert_done("cut", "--task", task)
+        self.assertEqual(self.tree("by_task"), self.tree("by_words"))
+        self.assertGreater(len(self.tree("by_task")), 8)
+        for words in (["-o", "other"], ["--output=other"], ["-oother"]):
+            with self.subTest(words):
+                self.assert_done("cut", *words, f"--task={task}")
+                self.assertEqual(self.tree("other"), self.tree("by_words"))
+                shutil.rmtree(self.folder / "other")
+
+    def test_a_list_of_pictures_and_a_list_of_boxes(self):
+        task = self.task(image=[self.picture("west.png"), self.picture("east.png")], output="both", mosaic="2x1",
+                         bounds="0,0,20,5", **{"tile-size": 64})
+        self.assert_done("cut", "--task", task)
+        preload = {"SOURCE": "both", "output": "held.gpkg"}
+        counts = []
+        for boxes in ([[0, 0, 1, 1]], [[15, 0, 16, 1]], [[0, 0, 1, 1], "15,0,16,1"], [0, 0, 1, 1]):
+            done = self.assert_done("preload", "--task", self.task(bbox=boxes, **preload), "--dry-run", "--json")
+            counts.append(json.loads(done.stdout)["tiles"])
+        self.assertEqual(counts[3], counts[0], "four numbers are one box")
+        self.assertGreater(counts[2], max(counts[:2]))
+        self.assert_nothing_but("both", "east.png", "task.json", "west.png")
+
+    def test_a_wrong_task_is_named_with_a_cure(self):
+        for keys, says in [({"levles": "0-3"}, ["\"levles\"", "preload --help"]), ({"task": "b.json"}, ["\"task\""]),
+                           ({"command": "cut"}, ["not for preload"]), ({"rate": True}, ["\"rate\"", "has a value"]),
+                           ({"dry-run": 1}, ["\"dry-run\"", "true or false"]), ({"SOURCE": "-x"}, ["\"SOURCE\"", "./"]),
+                           ({"bbox": [[]]}, ["\"bbox\""]), ({"rate": {}}, ["\"rate\""]), ({"rate": None}, ["\"rate\""]),
+                           ({"--rate": 2}, ["\"--rate\""]), ({"-o": "x"}, ["\"-o\""])]:
+            with self.subTest(keys):
+                self.assert_fails(WRONG_USAGE, "preload", "--task", self.task(**keys), says=["task.json", *says])
+        self.assert_fails(WRONG_USAGE, "preload", "--task", "none.json", says=["none.json"])
+        self.write("task.json", b"[]")
+        self.assert_fails(WRONG_USAGE, "preload", "--task", "task.json", says=["task.json"])
+        self.assert_fails(WRONG_USAGE, "cut", "--task", "task.json", "--task", "task.json", says=["--task", "twice"])
+        self.assert_fails(WRONG_USAGE, "cut", "--task", says=["--task"])
+        self.assert_fails(WRONG_USAGE, "render", "--task", "task.json", says=["--task"])
+        task = self.task(SOURCE="a.gpkg", output="b.gpkg", rate="fast")
+        self.assert_fails(WRONG_USAGE, "preload", "--task", task, says=["--rate"])
+        self.assert_nothing_but("task.json")
 
 
 class Installation(ProgramTest):
