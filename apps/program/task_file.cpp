@@ -90,7 +90,7 @@ Status append(const CLI::Option& option, const std::string& key, const Json& val
   const bool positional = option.get_positional();
   for (const std::string& text : *texts) {
     if (positional && text.starts_with('-')) return Error{"begins with a dash; write ./ before the name of a file"};
-    arguments.push_back(positional ? text : "--" + key + "=" + text);
+    arguments.push_back(positional ? text : fmt::format("--{}={}", key, text));
   }
   return Done{};
 }
