@@ -166,7 +166,7 @@ Result<CutPlan> to_mercator(const CutOptions& options, const CutPlan& picture, C
   const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
   if (!body) return body.error();
   const Ellipsoid& figure = body->ellipsoid;
-  const auto plan = mercator_plan(picture, figure, input.numbers.has_value(), name);
+  auto plan = mercator_plan(picture, figure, input.numbers.has_value(), name);
   if (!plan) return plan.error();
   if (reaches_beyond_mercator(picture, figure)) {
     input.remarks.push_back(

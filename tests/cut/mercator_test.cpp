@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <span>
 
 #include "cut_files.h"
 #include "geo/body.h"
@@ -15,8 +17,6 @@
 
 namespace terrella::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kPi = std::numbers::pi;
 /// Rounding to 8 bits in the picture and again in the tile, and the filter's overshoot in waves of 16 pixels.
