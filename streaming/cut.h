@@ -82,13 +82,21 @@ struct CutWatch {
   std::int64_t row_step = 1;  ///< positive
 };
 
+/// Grid of the tiles that a cut makes.
+enum class CutGrid {
+  geodetic,     ///< the picture's own pixels
+  web_mercator  ///< EPSG:3857, the picture is resampled (streaming/cut/README.md, "Web Mercator")
+};
+
 struct CutOptions {
   std::vector<std::filesystem::path> images{};  ///< several files are parts of one picture (streaming/cut/README.md)
   std::optional<PictureFile> picture = {};      ///< the one file of `images`, if it is open already
   std::optional<CutRaster> raster = {};         ///< replaces the file; `images` then contains its name alone
-  std::filesystem::path output{};               ///< *.gpkg makes a GeoPackage, any other name a directory
-  int tile_px = 256;                            ///< even, [16, 4096]
-  int quality = 85;                             ///< [1, 100]
+  /// *.gpkg makes a GeoPackage, in Web Mercator also *.mbtiles and *.pmtiles, any other name a directory.
+  std::filesystem::path output{};
+  CutGrid grid = CutGrid::geodetic;
+  int tile_px = 256;  ///< even, [16, 4096]; at most 1024 in Web Mercator
+  int quality = 85;   ///< [1, 100]
   std::optional<ImageFormat>
       format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
   std::optional<MosaicGrid> mosaic = {};
@@ -112,7 +120,7 @@ struct CutOptions {
   /// Called on the calling thread with the rows done and the total rows. Returning false stops the cut.
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};
   bool keep_unfinished = false;     ///< keeps finished work for the next run if `progress` stops the cut
-  std::optional<CutWatch> watch{};  ///< for pictures of colours
+  std::optional<CutWatch> watch{};  ///< for pictures of colours, in a geodetic grid
   /// Receives remarks for the user on the calling thread: statements of the picture that these options overrule.
   std::function<void(const std::string& remark)> remark{};
 };
@@ -126,10 +134,10 @@ struct CutSummary {
 
 /// Cuts a picture into a tile set, or, with `shard`, does a part of the work. One streaming pass reads the rows, so
 /// memory does not grow with the picture's height. The finest level has the source's own pixels (root span = tile_px ·
-/// pixel size · 2^L). Coarser levels are means by area on the sphere, also across ±180°. The output appears under its
-/// name only when it is complete. It replaces nothing but an earlier output of cut() (streaming/cut/README.md,
-/// "Replacing an output"). A cut with the same options and pictures continues the work of a killed cut; the result is
-/// the same bytes. Blocks. thread: any
+/// pixel size · 2^L), unless `grid` says another. Coarser levels are means by area on the sphere, also across ±180°.
+/// The output appears under its name only when it is complete. It replaces nothing but an earlier output of cut()
+/// (streaming/cut/README.md, "Replacing an output"). A cut with the same options and pictures continues the work of a
+/// killed cut; the result is the same bytes. Blocks. thread: any
 [[nodiscard]] Result<CutSummary> cut(const CutOptions& options);
 
 /// Fails as cut() would before it reads a pixel; looks at the pictures alone, not at the output. Blocks.

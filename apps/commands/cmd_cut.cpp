@@ -30,6 +30,7 @@ constexpr const char* kCutExamples =
     "  terrella cut moon.jpg -o moon.gpkg --body moon\n"
     "  terrella cut alps.png -o tiles --bounds 5,43,17,49 --format png\n"
     "  terrella cut flight.tif -o flight.gpkg                           UTM, or any system that the file states\n"
+    "  terrella cut earth.tif -o earth.pmtiles --grid webmercator       also .mbtiles, .gpkg or a folder\n"
     "  terrella cut https://host/mosaic.tif -o mosaic.gpkg\n"
     "  terrella cut flight.png -o flight.gpkg --crs EPSG:32633 --bounds 500000,4640000,506400,4650000\n"
     "  terrella cut world.200412.3x21600x21600.??.jpg -o earth.gpkg     NASA's eight parts as one\n"
@@ -236,9 +237,16 @@ void add_cut_command(CLI::App& app, int& exit_code) {
                  "JPEG, PNG, WebP, TIFF or BigTIFF")
       ->required()
       ->type_name("IMAGE...");
-  sub.add_option("-o,--output", command->output, "Write to a GeoPackage if the name ends in .gpkg, else to a folder")
+  sub.add_option(
+         "-o,--output", command->output,
+         "Write to a GeoPackage if the name ends in .gpkg, with --grid webmercator to MBTiles or PMTiles if the "
+         "name ends in .mbtiles or .pmtiles, else to a folder")
       ->required()
-      ->type_name("OUT.gpkg|DIR");
+      ->type_name("OUT.gpkg|OUT.mbtiles|OUT.pmtiles|DIR");
+  add_choice<CutGrid>(sub, "--grid", cut.grid,
+                      {{"geodetic", CutGrid::geodetic}, {"webmercator", CutGrid::web_mercator}},
+                      "Set the grid of the tiles: geodetic keeps the picture's pixels, webmercator is the grid of web "
+                      "maps (EPSG:3857), without latitudes beyond 85.05 degrees");
   sub.add_option("--tile-size", cut.tile_px, "Set the side of a tile in pixels, an even number")
       ->check(whole_number_in(16, 4096))
       ->check(CLI::Validator(

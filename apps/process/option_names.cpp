@@ -26,6 +26,7 @@ constexpr std::array kOptions = {
     Row{"elevation", "--elevation"},
     Row{"force", "--force"},
     Row{"format", "--format"},
+    Row{"grid", "--grid"},
     Row{"jobs", "--jobs"},
     Row{"latitude", "--latitude"},
     Row{"layer", "--layer"},

@@ -7,11 +7,14 @@
 #include <system_error>
 #include <thread>
 
+#include "geo/body.h"
 #include "streaming/cut/bands.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/input/cut_input.h"
 #include "streaming/cut/input/watched_rows.h"
+#include "streaming/cut/mercator_plan.h"
+#include "streaming/cut/mercator_rows.h"
 #include "streaming/cut/output/shards.h"
 #include "streaming/cut/output/tile_writer.h"
 #include "streaming/cut/output/work_folder.h"
@@ -27,21 +30,24 @@ int encoder_count(int jobs) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
 }
 
-/// True if tiles are JPEG where they are opaque, and PNG at the picture's outline.
-bool has_png_outline(const CutOptions& options, const CutInput& input) {
-  const PictureInfo& picture = input.rows->info();
-  return !options.format && !input.numbers && (!picture.has_alpha || picture.opaque_inside);
+bool is_planet(const CutPlan& plan) {
+  const double rows_deg = top_row_deg(plan.grid) - bottom_row_deg(plan.grid);
+  return plan.wraps && plan.finest.y0 == 0 && begins_at_planet(plan.grid) &&
+         static_cast<double>(plan.finest.y1) * plan.pixel_deg > rows_deg - plan.pixel_deg;
 }
 
-bool is_planet(const CutPlan& plan) {
-  return plan.wraps && plan.finest.y0 == 0 && begins_at_planet(plan.grid) &&
-         static_cast<double>(plan.finest.y1) * plan.pixel_deg > 180.0 - plan.pixel_deg;
+/// True if tiles are JPEG where they are opaque, and PNG at the picture's outline. An MBTiles file has one format.
+bool has_png_outline(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
+  if (options.format || input.numbers) return false;
+  const PictureInfo& picture = input.rows->info();
+  if (output_kind(options.output) == OutputKind::mbtiles) return !picture.has_alpha && is_planet(plan);
+  return !picture.has_alpha || picture.opaque_inside;
 }
 
 PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
   if (input.numbers) return input.numbers->floats ? PixelKind::number : PixelKind::height;
   if (input.rows->info().has_alpha) return PixelKind::alpha;
-  return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
+  return has_png_outline(options, input, plan) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
@@ -55,7 +61,7 @@ std::optional<float> float_nodata_of(const CutInput& input) {
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
-  const bool needs_png = !has_png_outline(options, input);
+  const bool needs_png = !has_png_outline(options, input, plan);
   return {.name = options.name,
           .attribution = options.attribution,
           .body = options.body,
@@ -84,7 +90,7 @@ struct Job {
                        .finest = plan.grid.max_level,
                        .heights = input.numbers.has_value(),
                        .floats = input.numbers && input.numbers->floats,
-                       .png_outline = has_png_outline(options, input),
+                       .png_outline = has_png_outline(options, input, plan),
                        .nodata = float_nodata_of(input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,
@@ -154,12 +160,45 @@ Result<CutSummary> join_shards(const Job& job) {
 
 fs::path without_trailing_slash(const fs::path& path) { return path.filename().empty() ? path.parent_path() : path; }
 
-/// Plan of the opened pictures. Their place replaces the options about it.
-Result<CutPlan> plan_input(const CutOptions& options, const CutInput& input) {
+/// Replaces the rows of the picture by those in Web Mercator.
+Result<CutPlan> to_mercator(const CutOptions& options, const CutPlan& picture, CutInput& input) {
+  const std::string name = options.images.front().string();
+  const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
+  if (!body) return body.error();
+  const Ellipsoid& figure = body->ellipsoid;
+  auto plan = mercator_plan(picture, figure, input.numbers.has_value(), name);
+  if (!plan) return plan.error();
+  if (reaches_beyond_mercator(picture, figure)) {
+    input.remarks.push_back(
+        fmt::format("{}: latitudes beyond {:.4f} degrees north and south are left out, because Web Mercator ends there",
+                    name, kMercatorEndDeg));
+  }
+  auto rows = with_rows(std::move(input.rows), picture.finest.y1 - picture.finest.y0);
+  input.rows = mercator_rows(std::move(rows), picture, *plan, figure, input.numbers.has_value(), options.jobs);
+  return plan;
+}
+
+/// Plan of the opened pictures, whose rows become those of the plan. Their place replaces the options about it.
+Result<CutPlan> plan_input(const CutOptions& options, CutInput& input) {
   CutOptions placed = options;
   placed.bounds = input.bounds;
   placed.latitude = input.latitude;
-  return plan_cut(input.rows->info(), placed);
+  auto plan = plan_cut(input.rows->info(), placed);
+  if (!plan) return plan;
+  if (options.grid == CutGrid::web_mercator) return to_mercator(options, *plan, input);
+  input.rows = with_rows(std::move(input.rows), plan->finest.y1 - plan->finest.y0);
+  return plan;
+}
+
+/// Fails if the output's format has no geodetic tiles, which the options ask for.
+Status check_grid_of_output(const CutOptions& options) {
+  const OutputKind kind = output_kind(options.output);
+  const bool web = kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
+  if (!web || options.grid == CutGrid::web_mercator) return Done{};
+  return Error{fmt::format(
+      "{}: such a file holds tiles in Web Mercator alone; give ‹grid› webmercator, or name an output that ends in "
+      ".gpkg, or a folder",
+      options.output.string())};
 }
 
 /// Checks the output before any work, because it may be known already that the output must stay.
@@ -179,6 +218,7 @@ Result<Job> prepare(const CutOptions& options) {
   if (options.images.empty()) return Error{"no picture is named; give a JPEG, PNG, WebP or TIFF file"};
   if (Status sane = check_options(options); !sane) return sane.error();
   if (Status sane = check_shard(options); !sane) return sane.error();
+  if (Status fits = check_grid_of_output(options); !fits) return fits.error();
   auto claim = claim_output(options);
   if (!claim) return claim.error();
   auto input = open_input(options);
@@ -188,7 +228,6 @@ Result<Job> prepare(const CutOptions& options) {
   const auto key = cut_key(options, input->place);
   if (!key) return key.error();
   if (options.remark) std::ranges::for_each(input->remarks, options.remark);
-  input->rows = with_rows(std::move(input->rows), plan->finest.y1 - plan->finest.y0);
   if (options.watch) input->rows = watched_rows(std::move(input->rows), options);
   TileSetInfo info = describe(options, *plan, *input);
   if (Status fits = check_output(claim->output, info); !fits) return fits.error();
@@ -220,7 +259,7 @@ Result<CutSummary> cut(const CutOptions& asked) {
 }
 
 Result<PlannedCut> plan_pictures(const CutOptions& options) {
-  const auto input = open_input(options);
+  auto input = open_input(options);
   if (!input) return input.error();
   const auto plan = plan_input(options, *input);
   if (!plan) return plan.error();

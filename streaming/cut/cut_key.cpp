@@ -63,7 +63,7 @@ std::string options_text(const CutOptions& options, std::string place) {
                      options.format ? static_cast<int>(*options.format) : -1, place,
                      static_cast<int>(options.projection), options.name, options.attribution, options.body,
                      mosaic.columns, mosaic.rows, elevation_text(options.elevation)) +
-         numbers_text(options);
+         numbers_text(options) + (options.grid == CutGrid::web_mercator ? "|web mercator" : "");
 }
 
 Result<std::string> cut_key(const CutOptions& options, const std::string& place) {

@@ -50,6 +50,7 @@ Status check_options(const CutOptions& options) {
   const CutElevation heights = options.elevation.value_or(CutElevation{});
   RangeCheck check;
   check.known("format", options.format.value_or(ImageFormat::jpeg), ImageFormat::webp)
+      .known("grid", options.grid, CutGrid::web_mercator)
       .known("projection", options.projection, Projection::equal_area)
       .known("latitude", options.latitude.value_or(LatitudeKind::graphic), LatitudeKind::centric)
       .in("columns", mosaic.columns, 1, kMostMosaicSide)
@@ -59,7 +60,9 @@ Status check_options(const CutOptions& options) {
       .in("offset", heights.offset.value_or(0.0), -kMostNumber, kMostNumber)
       .in("band", options.numbers.value_or(CutNumbers{}).band, 1, kMostBands)
       .in("west_deg", options.west_deg.value_or(0.0), -360.0, 360.0)
-      .in("row_step", options.watch ? double(options.watch->row_step) : 1.0, 1, RangeCheck::kMost);
+      .in("row_step", options.watch ? double(options.watch->row_step) : 1.0, 1, RangeCheck::kMost)
+      .that(!options.watch || options.grid == CutGrid::geodetic,
+            "a cut in Web Mercator is not shown while it goes on; leave ‹grid› out");
   if (options.composite) check.part("composite", check_bands(*options.composite));
   return check.result();
 }
@@ -263,8 +266,10 @@ PixelRect pixels_at(const CutPlan& plan, int level) {
 
 double finest_row_area(const CutPlan& plan, std::int64_t y) {
   if (plan.grid.projection == Projection::equal_area) return 1.0;
+  const bool mercator = plan.grid.projection == Projection::web_mercator;
   const auto sine = [&](std::int64_t edge) {
-    const double lat_deg = std::clamp(plan.grid.north_deg - static_cast<double>(edge) * plan.pixel_deg, -90.0, 90.0);
+    const double row_deg = top_row_deg(plan.grid) - static_cast<double>(edge) * plan.pixel_deg;
+    const double lat_deg = mercator ? latitude_of_mercator_row_deg(row_deg) : std::clamp(row_deg, -90.0, 90.0);
     return std::sin(lat_deg * (std::numbers::pi / 180.0));
   };
   return sine(y) - sine(y + 1);

@@ -3,15 +3,18 @@
 import json
 import math
 import shutil
+import struct
 import subprocess
 import unittest
+import zlib
 
 import png
 import servers
-from pictures import TILE_PX, square_tile
+from pictures import TILE_PX, png_of, square_tile
 from program import ProgramTest
 
 LEVELS = 3
+SAME_RMS = 2.5  # levels; 1.65 is measured. Both resample jumps of 245 levels, a pixel wide
 SIDE = 256
 POLE = ("--unlit", "--sky", "off", "--camera", "90,0,3000000", "--size", f"{SIDE}x{SIDE}")
 
@@ -24,6 +27,12 @@ def radius_px_of(lat_deg):
     n = a / math.sqrt(1 - e2 * math.sin(lat) ** 2)
     off_axis, height = n * math.cos(lat), n * (1 - e2) * math.sin(lat)
     return off_axis / (b + 3e6 - height) * SIDE / 2 / math.tan(math.radians(20))
+
+
+def web_texel(column, row, side):
+    """Longitude and latitude of the middle of a texel of the square of Web Mercator, which has `side` texels each way."""
+    lat = math.atan(math.sinh(math.pi * (1 - 2 * (row + 0.5) / side)))
+    return (column + 0.5) / side * 360 - 180, math.degrees(lat)
 
 
 class MercatorTest(ProgramTest):
@@ -113,6 +122,56 @@ class MercatorTest(ProgramTest):
             self.assert_fails(1, "render", server.template, "--projection", "web-mercator", "--max-level", LEVELS - 1,
                               "-o", "x.png", *POLE, says=["leave out --projection web-mercator"])
         self.assert_fails(1, "render", "--projection", "web-mercator", "-o", "x.png", *POLE, says=["not in Web Mercator"])
+
+    def test_cut_puts_a_picture_where_gdal_finds_it_and_draws_it_as_it_was(self):
+        width, height, zoom_px = 360, 180, 512
+        rows = b"".join(b"\0" + b"".join(bytes((x % 36 * 7, y % 36 * 7, 90)) for x in range(width)) for y in range(height))
+        self.write("picture.png", png_of(width, height, zlib.compress(rows)))
+        outputs = ("web.gpkg", "web.mbtiles", "web.pmtiles", "web")
+        for output in outputs:
+            told = self.assert_done("cut", "picture.png", "-o", output, "--grid", "webmercator", "--format", "png")
+            self.assertIn("85.05", told.stderr)
+            told = self.assert_done("info", output, "--verify").stdout
+            self.assertIn("Web Mercator", told)
+            self.assertIn("0 absent, 0 blank, 0 broken", told)
+        # Middles of texels that lie away from the jumps of the colours.
+        for column, row in ((40, 300), (200, 40), (300, 256), (470, 470)):
+            lon, lat = web_texel(column, row, zoom_px)
+            wanted = ((lon + 180 - 0.5) % 36 * 7, (90 - lat - 0.5) % 36 * 7)
+            for output in outputs[:2]:
+                # A texel further is 4.9 levels more. The filter overshoots a little beside the jumps.
+                for value, truth in zip(self.by_gdal(output, lon, lat), wanted):
+                    self.assertAlmostEqual(value, truth, delta=1.5, msg=f"{output} {lon} {lat}")
+        view = ("--unlit", "--sky", "off", "--camera", "20,30,12000000", "--size", "256x256")
+        self.assert_done("cut", "picture.png", "-o", "plain.gpkg", "--format", "png")
+        self.assert_done("render", "plain.gpkg", "-o", "plain.png", *view)
+        self.assert_done("render", "web.pmtiles", "-o", "web.png", *view)
+        plain, web = self.pixels("plain.png"), self.pixels("web.png")
+        squares = sum((a - b) ** 2 for p, q in zip(plain, web) for a, b in zip(p, q))
+        self.assertLess(math.sqrt(squares / (3 * len(plain))), SAME_RMS)
+
+    def by_gdal(self, tiles, lon, lat):
+        """The values of all bands that GDAL finds at a place."""
+        found = subprocess.run(["gdallocationinfo", "-valonly", "-wgs84", self.folder / tiles, str(lon), str(lat)],
+                               capture_output=True, text=True, check=True).stdout
+        return [float(value) for value in found.split()]
+
+    def test_cut_puts_heights_where_gdal_finds_them(self):
+        width, height = 360, 180
+        rows = b"".join(b"\0" + struct.pack(f">{width}H", *(10 * x + 5 * y for x in range(width))) for y in range(height))
+        self.write("heights.png", png_of(width, height, zlib.compress(rows), bits=16, colour=0))
+        self.assert_done("cut", "heights.png", "--elevation", "-o", "web.gpkg", "--grid", "webmercator")
+        for column, row in ((40, 300), (200, 40), (300, 256), (470, 470)):
+            lon, lat = web_texel(column, row, 512)
+            # Numbers are whole.
+            self.assertAlmostEqual(self.by_gdal("web.gpkg", lon, lat)[0], 10 * (lon + 179.5) + 5 * (89.5 - lat), delta=0.51)
+        self.assert_fails(1, "cut", "heights.png", "--elevation", "-o", "web.pmtiles", "--grid", "webmercator",
+                          says=["numbers", ".gpkg"])
+
+    def test_cut_into_web_formats_without_the_grid_names_it(self):
+        self.write("picture.png", png_of(8, 4, zlib.compress((b"\0" + bytes(24)) * 4)))
+        for output in ("a.mbtiles", "a.pmtiles"):
+            self.assert_fails(1, "cut", "picture.png", "-o", output, says=["--grid webmercator", output])
 
 
 if __name__ == "__main__":

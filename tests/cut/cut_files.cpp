@@ -14,7 +14,7 @@ Image part_of(const Image& image, int x0, int y0, int width, int height) {
 
 std::map<TileId, std::vector<std::byte>> all_tiles(const std::filesystem::path& tile_set) {
   std::map<TileId, std::vector<std::byte>> tiles;
-  const auto source = open_tile_set(tile_set);
+  const auto source = open_stored_tile_set(tile_set, false);
   EXPECT_TRUE(source) << source.error().message;
   if (!source) return tiles;
   const TileGrid& grid = (*source)->info().grid;

@@ -16,7 +16,10 @@ constexpr int kHeight_px = 512;  // four bands of 128 rows: 16 pixels a tile, 3 
 
 class Resume : public testing::TestWithParam<const char*> {
  protected:
-  Resume() { write_png(options_.images.front(), noise(2 * kHeight_px, kHeight_px)); }
+  Resume() {
+    write_png(options_.images.front(), noise(2 * kHeight_px, kHeight_px));
+    if (options_.output.extension() == ".pmtiles") options_.grid = CutGrid::web_mercator;
+  }
 
   /// Cuts in another process, which kills itself when that many rows are read.
   void killed_at(std::int64_t rows) const {
@@ -137,7 +140,7 @@ TEST_P(Resume, DamagedBandsAreAnErrorAndThenCutAnew) {
   must_cut(options_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Outputs, Resume, testing::Values("out.gpkg", "tiles"),
+INSTANTIATE_TEST_SUITE_P(Outputs, Resume, testing::Values("out.gpkg", "tiles", "web.pmtiles"),
                          [](const auto& output) { return std::string(output.param).substr(0, 3); });
 
 }  // namespace

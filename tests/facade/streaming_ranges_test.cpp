@@ -101,6 +101,7 @@ TEST_F(StreamingRanges, OfCuts) {
        {-1, 4},
        [](O& o, double v) { o.composite = CutBands{.stretch = {StretchRule{.kind = StretchRule::Kind(int(v))}}}; }},
       {"west_deg", {-360, 360}, {-361, 361, kNoNumberAtAll}, [](O& o, double v) { o.west_deg = v; }},
+      {"grid", {0, 1}, {-1, 2}, [](O& o, double v) { o.grid = CutGrid(int(v)); }},
       {"projection", {0, 1}, {-1, 2, 3, 4}, [](O& o, double v) { o.projection = Projection(int(v)); }},
       {"latitude", {0, 1}, {-1, 2}, [](O& o, double v) { o.latitude = LatitudeKind(int(v)); }},
       {"jobs", {0, 256}, {-1, 257}, [](O& o, double v) { o.jobs = int(v); }},

@@ -41,7 +41,7 @@ Result<typename Tile::Pixels, TileFailure> warped(const WarpPlan& plan, const Wa
   if (plan.lines) {
     const auto canvas = read_canvas<Tile::kChannels>(level, plan.level, plan.lines->canvas, block_at);
     if (!canvas) return canvas.error();
-    resample_lines<Tile>(*plan.lines, *canvas, pixels);
+    resample_lines<Tile>(plan.lines->columns, plan.lines->rows, *canvas, pixels);
   }
   for (const WarpChunk& chunk : plan.chunks) {
     const auto canvas = read_canvas<Tile::kChannels>(level, plan.level, chunk.canvas, block_at);

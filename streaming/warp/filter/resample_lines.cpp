@@ -108,31 +108,33 @@ std::optional<TileFailure> copy_lines(const WarpPlan& plan, const WarpLevel& lev
 }
 
 template <class Tile>
-void resample_lines(const WarpLines& lines, const Canvas<Tile::kChannels>& canvas, typename Tile::Pixels& to) {
+void resample_lines(const std::vector<LineTaps>& columns, std::span<const LineTaps> rows,
+                    const Canvas<Tile::kChannels>& canvas, typename Tile::Pixels& to) {
   std::vector<float> sums(static_cast<std::size_t>(canvas.rect.width()) * Tile::kChannels);
-  std::vector<float> tile_row(lines.columns.size() * Tile::kChannels);
-  const bool inside =
-      std::ranges::all_of(lines.columns, [](const LineTaps& column) { return column.coverage >= 1.0F; });
-  for (std::size_t y = 0; y < lines.rows.size(); ++y) {
-    const LineTaps& row = lines.rows[y];
+  std::vector<float> tile_row(columns.size() * Tile::kChannels);
+  const bool inside = std::ranges::all_of(columns, [](const LineTaps& column) { return column.coverage >= 1.0F; });
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    const LineTaps& row = rows[y];
     if (row.coverage <= 0.0F || row.taps.weights.empty()) continue;
     sum_rows(canvas, row.taps, sums);
-    sum_columns<Tile::kChannels>(sums, lines.columns, tile_row);
-    const std::size_t line = y * lines.columns.size();
-    for (std::size_t x = 0; x < lines.columns.size(); ++x) {
-      const LineTaps& column = lines.columns[x];
+    sum_columns<Tile::kChannels>(sums, columns, tile_row);
+    const std::size_t line = y * columns.size();
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      const LineTaps& column = columns[x];
       float* sum = tile_row.data() + x * Tile::kChannels;
       if (column.taps.weights.empty()) continue;
       if (!Tile::is_whole(sum)) sum_positive(canvas, column.taps, row.taps, sum);
       if (!inside || row.coverage < 1.0F) Tile::write(sum, row.coverage * column.coverage, to, line + x);
     }
-    if (inside && row.coverage >= 1.0F) Tile::write_row(tile_row.data(), lines.columns.size(), to, line);
+    if (inside && row.coverage >= 1.0F) Tile::write_row(tile_row.data(), columns.size(), to, line);
   }
 }
 
 template std::optional<TileFailure> copy_lines<ColourTile>(const WarpPlan&, const WarpLevel&, const BlockAt&, Image&);
 template std::optional<TileFailure> copy_lines<NumberTile>(const WarpPlan&, const WarpLevel&, const BlockAt&, Numbers&);
-template void resample_lines<ColourTile>(const WarpLines&, const ColourCanvas&, Image&);
-template void resample_lines<NumberTile>(const WarpLines&, const NumberCanvas&, Numbers&);
+template void resample_lines<ColourTile>(const std::vector<LineTaps>&, std::span<const LineTaps>, const ColourCanvas&,
+                                         Image&);
+template void resample_lines<NumberTile>(const std::vector<LineTaps>&, std::span<const LineTaps>, const NumberCanvas&,
+                                         Numbers&);
 
 }  // namespace terrella
