@@ -95,10 +95,10 @@ struct CutOptions {
   /// *.gpkg makes a GeoPackage, in Web Mercator also *.mbtiles and *.pmtiles, any other name a directory.
   std::filesystem::path output{};
   CutGrid grid = CutGrid::geodetic;
-  int tile_px = 256;  ///< even, [16, 4096]; at most 1024 in Web Mercator
-  int quality = 85;   ///< [1, 100]
-  std::optional<ImageFormat>
-      format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at the outline
+  int tile_px = 256;                    ///< even, [16, 4096]; at most 1024 in Web Mercator
+  int quality = 85;                     ///< [1, 100]
+  std::optional<ImageFormat> format{};  ///< default: PNG if the picture has transparency inside, else JPEG with PNG at
+                                        ///< the outline (MBTiles: PNG)
   std::optional<MosaicGrid> mosaic = {};
   std::optional<CutElevation> elevation = {};
   std::optional<CutNumbers> numbers = {};  ///< at most one of `elevation`, `numbers` and `composite` is set

@@ -114,10 +114,12 @@ int fail(const char* command, const std::string& why) {
 }
 
 int run_command_line(CLI::App& app, std::vector<std::string> arguments, const int& exit_code) {
+  const std::string command = arguments.empty() ? std::string() : arguments.front();
   auto stated = with_task(app, std::move(arguments));
   if (!stated) {
-    print_message("terrella: {}\n", stated.error().message);
-    return kWrongUsage;
+    print_message("terrella {}: {}\n", command, stated.error().message);
+    if (stated.error().is_usage) print_message("See terrella {} --help.\n", command);
+    return stated.error().is_usage ? kWrongUsage : kFailed;
   }
   try {
     app.parse(reversed_arguments(app, *std::move(stated)));

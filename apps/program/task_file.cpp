@@ -5,9 +5,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -23,42 +26,54 @@ constexpr const char* kTaskOption = "--task";
 constexpr const char* kCommandKey = "command";
 constexpr std::size_t kMostTaskBytes = 16UL << 20;
 
-/// An argument `--task FILE` or `--task=FILE`.
-struct TaskArgument {
-  std::size_t first = 0;
-  std::size_t count = 0;
-  std::string file;
+/// An option or a positional argument of a command line.
+struct Word {
+  std::size_t at = 0;                   ///< place among the arguments
+  std::size_t count = 1;                ///< 2 if the option's value is an argument of its own
+  const CLI::Option* option = nullptr;  ///< null: a positional argument, or an unknown option
+  bool is_positional = false;
 };
 
-std::optional<TaskArgument> find_task(const std::vector<std::string>& arguments) {
-  const std::string joined = std::string(kTaskOption) + "=";
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--") break;  // positional arguments follow
-    if (arguments[i].starts_with(joined)) return TaskArgument{i, 1, arguments[i].substr(joined.size())};
-    if (arguments[i] == kTaskOption && i + 1 < arguments.size()) return TaskArgument{i, 2, arguments[i + 1]};
+std::vector<Word> words_of(const CLI::App& subcommand, const std::vector<std::string>& arguments) {
+  std::vector<Word> words;
+  bool options_may_come = true;
+  for (std::size_t at = 1; at < arguments.size(); at += words.back().count) {
+    const std::string& text = arguments[at];
+    const bool is_option = options_may_come && text.size() > 1 && text[0] == '-';
+    words.push_back({.at = at, .is_positional = !is_option});
+    if (!is_option) continue;
+    if (text == "--") {
+      options_may_come = false;
+      continue;
+    }
+    const bool is_long = text[1] == '-';
+    const std::string name = is_long ? text.substr(0, text.find('=')) : text.substr(0, 2);
+    const CLI::Option* option = subcommand.get_option_no_throw(name);
+    words.back().option = option;
+    const bool takes_next = option != nullptr && option->get_items_expected_min() > 0 && name == text;
+    if (takes_next && at + 1 < arguments.size()) words.back().count = 2;
   }
-  return {};
+  return words;
 }
 
-/// True if an argument is this option by one of its names, with or without a value.
-bool gives(const CLI::Option& option, std::string_view argument) {
-  const auto& longs = option.get_lnames();
-  const auto& shorts = option.get_snames();
-  if (argument.starts_with("--")) {
-    const std::string_view name = argument.substr(2, argument.find('=') - 2);
-    return std::ranges::find(longs, name) != longs.end();
+/// Text of a number. A whole number has no fraction, because options that count refuse one.
+std::string number_text(const Json& number) {
+  constexpr double kMostWhole = 9e15;
+  const double value = number.get<double>();
+  if (number.is_number_float() && std::abs(value) < kMostWhole && value == std::floor(value)) {
+    return std::to_string(static_cast<std::int64_t>(value));
   }
-  return argument.size() > 1 && argument[0] == '-' && std::ranges::find(shorts, argument.substr(1, 1)) != shorts.end();
+  return number.dump();
 }
 
 /// Text of one value; nothing if JSON's value is none.
 std::optional<std::string> text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.dump();
+  if (value.is_number()) return number_text(value);
   if (!value.is_array() || value.empty()) return {};
   if (!std::ranges::all_of(value, [](const Json& one) { return one.is_number(); })) return {};
   std::string joined;
-  for (const Json& one : value) joined += (joined.empty() ? "" : ",") + one.dump();
+  for (const Json& one : value) joined += (joined.empty() ? "" : ",") + number_text(one);
   return joined;
 }
 
@@ -80,17 +95,22 @@ std::optional<std::vector<std::string>> texts_of(const Json& value) {
 Status append(const CLI::Option& option, const std::string& key, const Json& value,
               std::vector<std::string>& arguments) {
   const bool is_flag = option.get_items_expected_max() == 0;
-  if (is_flag != value.is_boolean()) return Error{is_flag ? "is true or false" : "has a value: a text or a number"};
+  if (is_flag != value.is_boolean()) return Error{is_flag ? "takes true or false" : "takes a text or a number"};
   if (is_flag) {
     if (value.get<bool>()) arguments.push_back("--" + key);
     return Done{};
   }
   const auto texts = texts_of(value);
-  if (!texts) return Error{"is a text, a number, or a list of them"};
-  const bool positional = option.get_positional();
+  if (!texts) return Error{"takes a text, a number, or a list of them"};
   for (const std::string& text : *texts) {
-    if (positional && text.starts_with('-')) return Error{"begins with a dash; write ./ before the name of a file"};
-    arguments.push_back(positional ? text : fmt::format("--{}={}", key, text));
+    if (option.get_positional()) {
+      if (text.starts_with('-')) return Error{"begins with a dash; write ./ before the name of a file"};
+      arguments.push_back(text);
+    } else if (text.empty()) {  // after "=" it would be no value at all
+      arguments.insert(arguments.end(), {"--" + key, text});
+    } else {
+      arguments.push_back(fmt::format("--{}={}", key, text));
+    }
   }
   return Done{};
 }
@@ -104,58 +124,95 @@ const CLI::Option* option_of(const CLI::App& subcommand, const std::string& key)
   return positional != nullptr && positional->get_positional() ? positional : nullptr;
 }
 
-/// The task's arguments, without those that `given` replace.
+Status check_command(const Json& stated, const std::string& command, const std::string& file) {
+  if (stated == command) return Done{};
+  return Error{
+      fmt::format("the task is not for {0}: its \"command\" is {1}; run terrella with that command and "
+                  "--task {2}",
+                  command, stated.dump(), file)};
+}
+
+/// The task's arguments, without those that `arguments` replace.
 Result<std::vector<std::string>> arguments_of(const Json& task, const CLI::App& subcommand,
-                                              const std::vector<std::string>& given, const std::string& where) {
-  std::vector<std::string> arguments;
+                                              const std::vector<std::string>& arguments, const std::string& file) {
+  const std::vector<Word> given = words_of(subcommand, arguments);
+  const auto is_given = [&given](const CLI::Option& option) {
+    return std::ranges::any_of(given, [&option](const Word& word) {
+      return option.get_positional() ? word.is_positional : word.option == &option;
+    });
+  };
+  const std::string command = subcommand.get_name();
+  std::vector<std::string> stated;
   for (const auto& [key, value] : task.items()) {
     if (key == kCommandKey) {
-      if (value == subcommand.get_name()) continue;
-      return Error{fmt::format("{}: the task is not for {}; its \"command\" says for which command it is", where,
-                               subcommand.get_name())};
+      if (const Status right = check_command(value, command, file); !right) return right.error();
+      continue;
     }
     const CLI::Option* option = option_of(subcommand, key);
     if (option == nullptr) {
-      return Error{fmt::format("{}: {} has no option \"{}\"; terrella {} --help lists them", where,
-                               subcommand.get_name(), key, subcommand.get_name())};
+      return Error{fmt::format("{0} has no option \"{1}\"; terrella {0} --help lists them", command, key)};
     }
-    if (std::ranges::any_of(given, [option](const std::string& one) { return gives(*option, one); })) continue;
-    if (const Status added = append(*option, key, value, arguments); !added) {
-      return Error{fmt::format("{}: the option \"{}\" {}", where, key, added.error().message)};
+    if (is_given(*option)) continue;
+    if (const Status added = append(*option, key, value, stated); !added) {
+      return Error{fmt::format("the option \"{}\" {}", key, added.error().message)};
     }
   }
-  return arguments;
+  return stated;
 }
+
+/// A key that the object has twice: JSON's readers keep one of its values.
+std::optional<std::string> find_repeated_key(std::string_view text) {
+  std::set<std::string> keys;
+  std::optional<std::string> repeated;
+  const auto note = [&](int depth, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1 && !keys.insert(parsed.get<std::string>()).second)
+      repeated = parsed.get<std::string>();
+    return true;
+  };
+  [[maybe_unused]] const Json same = Json::parse(text, note, false);
+  return repeated;
+}
+
+TaskError wrong_usage(const std::string& message) { return {.message = message, .is_usage = true}; }
 
 }  // namespace
 
 void add_task_option(CLI::App& subcommand) {
   subcommand
-      .add_option(
-          kTaskOption,
-          "Do what a task file says: JSON with the names of options as keys. Options beside it replace its own; "
-          "paths count from the folder in which the command runs")
+      .add_option(kTaskOption,
+                  "Do what a task file says: JSON with the names of options as keys. Arguments beside it replace its "
+                  "own; paths are relative to the working directory")
       ->type_name("FILE.json");
 }
 
-Result<std::vector<std::string>> with_task(const CLI::App& app, std::vector<std::string> arguments) {
+Result<std::vector<std::string>, TaskError> with_task(const CLI::App& app, std::vector<std::string> arguments) {
   if (arguments.empty()) return arguments;
   const auto found = app.get_subcommands([&](const CLI::App* one) {
     return one->get_name() == arguments.front() && one->get_option_no_throw(kTaskOption) != nullptr;
   });
   if (found.empty()) return arguments;
   const CLI::App& subcommand = *found.front();
-  const auto argument = find_task(arguments);
-  if (!argument) return arguments;
-  const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(argument->first);
-  arguments.erase(first, first + static_cast<std::ptrdiff_t>(argument->count));
-  if (find_task(arguments)) return Error{"--task is given twice; a command does one task"};
-  const auto bytes = read_file(argument->file, kMostTaskBytes);
-  if (!bytes) return Error{bytes.error().message};
-  const auto task = parse_json_object(as_text(*bytes), kMostTaskBytes, argument->file);
-  if (!task) return task.error();
-  const auto stated = arguments_of(*task, subcommand, arguments, argument->file);
-  if (!stated) return stated.error();
+  const auto is_task = [&](const Word& word) { return word.option == subcommand.get_option_no_throw(kTaskOption); };
+  const std::vector<Word> words = words_of(subcommand, arguments);
+  const auto word = std::ranges::find_if(words, is_task);
+  if (word == words.end()) return arguments;
+  if (word->count == 1 && arguments[word->at] == kTaskOption) return arguments;  // has no file: the parser refuses it
+  if (std::ranges::count_if(words, is_task) > 1) return wrong_usage("--task is given twice; a command does one task");
+  const std::string& last = arguments[word->at + word->count - 1];
+  const std::string file = word->count == 2 ? last : last.substr(std::string_view(kTaskOption).size() + 1);
+  if (file.empty()) return wrong_usage("--task takes the name of a file");
+  const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(word->at);
+  arguments.erase(first, first + static_cast<std::ptrdiff_t>(word->count));
+
+  const auto bytes = read_file(file, kMostTaskBytes);
+  if (!bytes) return TaskError{.message = bytes.error().message};
+  const auto task = parse_json_object(as_text(*bytes), kMostTaskBytes, file);
+  if (!task) return TaskError{.message = task.error().message};
+  if (const auto repeated = find_repeated_key(as_text(*bytes))) {
+    return wrong_usage(fmt::format("{}: \"{}\" stands there twice; give several values as a list", file, *repeated));
+  }
+  const auto stated = arguments_of(*task, subcommand, arguments, file);
+  if (!stated) return wrong_usage(file + ": " + stated.error().message);
   arguments.insert(arguments.begin() + 1, stated->begin(), stated->end());
   return arguments;
 }

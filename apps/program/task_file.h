@@ -20,9 +20,15 @@ namespace terrella {
 /// Adds --task to a subcommand.
 void add_task_option(CLI::App& subcommand);
 
-/// Replaces `--task FILE` by the arguments that the file states. An option among `arguments` replaces the task's.
-/// `arguments` begin with the subcommand; those without --task, or whose subcommand has none, return as they are. The
-/// error names the file, the key and a cure.
-[[nodiscard]] Result<std::vector<std::string>> with_task(const CLI::App& app, std::vector<std::string> arguments);
+struct TaskError {
+  std::string message;
+  bool is_usage = false;  ///< a wrong command line or a wrong key; else a file that cannot be read
+};
+
+/// Replaces `--task FILE` by the arguments that the file states. An option among `arguments` replaces the task's, and
+/// positional arguments replace those of the task. `arguments` begin with the subcommand. Without --task they return as
+/// they are, also if the subcommand knows no --task. The error names the file and the key.
+[[nodiscard]] Result<std::vector<std::string>, TaskError> with_task(const CLI::App& app,
+                                                                    std::vector<std::string> arguments);
 
 }  // namespace terrella

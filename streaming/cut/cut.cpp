@@ -7,11 +7,11 @@
 #include <system_error>
 #include <thread>
 
-#include "geo/body.h"
 #include "streaming/cut/bands.h"
 #include "streaming/cut/cut_key.h"
 #include "streaming/cut/cut_plan.h"
 #include "streaming/cut/input/cut_input.h"
+#include "streaming/cut/input/picture_place.h"
 #include "streaming/cut/input/watched_rows.h"
 #include "streaming/cut/mercator_plan.h"
 #include "streaming/cut/mercator_rows.h"
@@ -163,15 +163,14 @@ fs::path without_trailing_slash(const fs::path& path) { return path.filename().e
 /// Replaces the rows of the picture by those in Web Mercator.
 Result<CutPlan> to_mercator(const CutOptions& options, const CutPlan& picture, CutInput& input) {
   const std::string name = options.images.front().string();
-  const auto body = options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
+  const auto body = body_of(options);
   if (!body) return body.error();
   const Ellipsoid& figure = body->ellipsoid;
   auto plan = mercator_plan(picture, figure, input.numbers.has_value(), name);
   if (!plan) return plan.error();
   if (reaches_beyond_mercator(picture, figure)) {
-    input.remarks.push_back(
-        fmt::format("{}: latitudes beyond {:.4f} degrees north and south are left out, because Web Mercator ends there",
-                    name, kMercatorEndDeg));
+    input.remarks.push_back(fmt::format(
+        "{}: latitudes beyond {:.4f} degrees are left out, because Web Mercator ends there", name, kMercatorEndDeg));
   }
   auto rows = with_rows(std::move(input.rows), picture.finest.y1 - picture.finest.y0);
   input.rows = mercator_rows(std::move(rows), picture, *plan, figure, input.numbers.has_value(), options.jobs);

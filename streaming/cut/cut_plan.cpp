@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/range_check.h"
+#include "tiles/grid_ranges.h"
 
 namespace terrella {
 namespace {
@@ -61,6 +62,8 @@ Status check_options(const CutOptions& options) {
       .in("band", options.numbers.value_or(CutNumbers{}).band, 1, kMostBands)
       .in("west_deg", options.west_deg.value_or(0.0), -360.0, 360.0)
       .in("row_step", options.watch ? double(options.watch->row_step) : 1.0, 1, RangeCheck::kMost)
+      .that(options.grid == CutGrid::geodetic || options.tile_px <= kMaxMercatorTilePx,
+            "‹tile_px› is over 1024; in Web Mercator it is at most that")
       .that(!options.watch || options.grid == CutGrid::geodetic,
             "a cut in Web Mercator is not shown while it goes on; leave ‹grid› out");
   if (options.composite) check.part("composite", check_bands(*options.composite));

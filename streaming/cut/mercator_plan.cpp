@@ -20,8 +20,9 @@ Result<int> finest_zoom(double pixel_deg, int tile_px, const std::string& name) 
   for (int zoom = 0; zoom <= kMaxTileLevel; ++zoom) {
     if (std::ldexp(360.0 / tile_px, -zoom) <= pixel_deg * (1.0 + kRounding)) return zoom;
   }
-  return Error{fmt::format("{}: pixels of {:.3g} degrees need a zoom over {}; give a larger ‹tile_px›", name, pixel_deg,
-                           kMaxTileLevel)};
+  return Error{
+      fmt::format("{}: pixels of {:.3g} degrees need a zoom over {}; make the picture smaller, or leave ‹grid› out",
+                  name, pixel_deg, kMaxTileLevel)};
 }
 
 /// First and last edge of the picture along one direction, in pixels of the plan.
@@ -67,7 +68,7 @@ Angle mercator_latitude(const CutPlan& plan, double row) {
 }
 
 bool reaches_beyond_mercator(const CutPlan& picture, const Ellipsoid& figure) {
-  const Angle end = Angle::degrees(kMercatorEndDeg);
+  const Angle end = Angle::degrees(kMercatorEndDeg + picture.pixel_deg);  // bounds are rounded outwards to pixels
   return edge_latitude(picture, figure, picture.finest.y0) > end ||
          edge_latitude(picture, figure, picture.finest.y1) < -end;
 }
@@ -101,11 +102,8 @@ Result<CutPlan> mercator_plan(const CutPlan& picture, const Ellipsoid& figure, b
   if (rows.begin >= rows.end || columns.begin >= columns.end) {
     return Error{
         fmt::format("{}: no pixel of it lies between the latitudes {:.4f} and {:.4f} of Web Mercator; leave "
-                    "‹grid› out",
+                    "‹grid› out and name an output that ends in .gpkg, or a folder",
                     name, -kMercatorEndDeg, kMercatorEndDeg)};
-  }
-  if (crosses && (columns.begin < turn / 2 || columns.end - turn > turn / 2)) {
-    return Error{fmt::format("{}: it crosses 180 degrees and the meridian of 0 degrees; cut it as two", name)};
   }
   plan.finest = {.x0 = columns.begin, .y0 = rows.begin, .x1 = columns.end, .y1 = rows.end};
   plan.picture_rows = rows.end - rows.begin;

@@ -26,7 +26,7 @@ namespace terrella {
 [[nodiscard]] Result<CutPlan> mercator_plan(const CutPlan& picture, const Ellipsoid& figure, bool halves,
                                             const std::string& name);
 
-/// True if the picture reaches beyond the square's northern or southern end.
+/// True if the picture reaches beyond the square's northern or southern end by more than a pixel.
 [[nodiscard]] bool reaches_beyond_mercator(const CutPlan& picture, const Ellipsoid& figure);
 
 }  // namespace terrella

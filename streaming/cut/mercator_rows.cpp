@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "streaming/cut/halve.h"
@@ -39,6 +42,12 @@ void clear(Image& made, std::size_t pixels) { made.rgba.assign(pixels * 4, 0); }
 void clear(Numbers& made, std::size_t pixels) { made.values.assign(pixels, std::numeric_limits<float>::quiet_NaN()); }
 const void* pixel_at(const Image& made, std::size_t at) { return made.rgba.data() + at * 4; }
 const void* pixel_at(const Numbers& made, std::size_t at) { return made.values.data() + at; }
+
+/// A number has no part: the plan has left out the lines that are not covered enough.
+void cover_whole(const NumberCanvas&, LineTaps& line) {
+  if (!line.taps.weights.empty()) line.coverage = 1.0F;
+}
+void cover_whole(const ColourCanvas&, LineTaps&) {}
 
 std::vector<LineTaps> column_taps(const CutPlan& picture, const CutPlan& plan, double width_px) {
   const auto at = [&](double column) { return picture_column(picture, mercator_lon_deg(plan, column)); };
@@ -76,7 +85,10 @@ class MercatorRows : public RowReader {
       canvas_.rect.u1 = std::max(canvas_.rect.u1, column.taps.first + std::ssize(column.taps.weights));
     }
     canvas_.rect.u1 = std::max(canvas_.rect.u1, width_px_);
-    for (LineTaps& column : columns_) column.taps.first -= canvas_.rect.u0;
+    for (LineTaps& column : columns_) {
+      column.taps.first -= canvas_.rect.u0;
+      cover_whole(canvas_, column);
+    }
     read_.resize(static_cast<std::size_t>(width_px_) * 4);
     made_rows_ = std::clamp<std::int64_t>(kMadeBytes / (4 * info_.width_px), 1, kMostMade);
   }
@@ -111,7 +123,9 @@ class MercatorRows : public RowReader {
   [[nodiscard]] LineTaps row_taps(std::int64_t row) const {
     const auto at = [&](double y) { return picture_row(picture_, figure_, mercator_latitude(plan_, y)); };
     const auto first = static_cast<double>(plan_.finest.y0 + row);
-    return line_taps({at(first), at(first + 0.5), at(first + 1.0)}, static_cast<double>(height_px_));
+    LineTaps taps = line_taps({at(first), at(first + 0.5), at(first + 1.0)}, static_cast<double>(height_px_));
+    cover_whole(canvas_, taps);
+    return taps;
   }
 
   /// Makes the next rows, each job some of them.

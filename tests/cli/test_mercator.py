@@ -156,6 +156,20 @@ class MercatorTest(ProgramTest):
                                capture_output=True, text=True, check=True).stdout
         return [float(value) for value in found.split()]
 
+    def test_heights_of_a_region_are_known_at_its_corners_too(self):
+        width, height, value = 123, 61, 1000
+        rows = (b"\0" + value.to_bytes(2, "big") * width) * height
+        self.write("heights.png", png_of(width, height, zlib.compress(rows), bits=16, colour=0))
+        # A texel at each corner is covered by about 0.56 of its width and of its height: more than half of both, and
+        # less than half of its area.
+        self.assert_done("cut", "heights.png", "--elevation", "--bounds", "5.4,43.6,17.7,49.7", "--tile-size", "64",
+                         "--grid", "webmercator", "-o", "web")
+        tiles = list((self.folder / "web").rglob("*.png"))
+        self.assertGreater(len(tiles), 8)
+        for tile in tiles:
+            told = subprocess.run(["gdalinfo", "-mm", tile], capture_output=True, text=True, check=True).stdout
+            self.assertIn(f"Computed Min/Max={value}.000,{value}.000", told, tile)
+
     def test_cut_puts_heights_where_gdal_finds_them(self):
         width, height = 360, 180
         rows = b"".join(b"\0" + struct.pack(f">{width}H", *(10 * x + 5 * y for x in range(width))) for y in range(height))

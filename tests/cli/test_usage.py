@@ -219,8 +219,8 @@ class Tasks(ProgramTest):
         (self.folder / "task.json").write_text(json.dumps(keys), encoding="utf-8")
         return "task.json"
 
-    def picture(self, name):
-        (self.folder / name).write_bytes(pictures.png(512, 256, (200, 90, 40)))
+    def picture(self, name, colour=(200, 90, 40)):
+        (self.folder / name).write_bytes(pictures.png(512, 256, colour))
         return name
 
     def tree(self, folder):
@@ -240,6 +240,18 @@ class Tasks(ProgramTest):
                 self.assert_done("cut", *words, f"--task={task}")
                 self.assertEqual(self.tree("other"), self.tree("by_words"))
                 shutil.rmtree(self.folder / "other")
+        self.picture("b.png", (10, 90, 40))
+        self.assert_done("cut", "b.png", "-o", "other", "--task", task)
+        self.assertNotEqual(self.tree("other"), self.tree("by_words"))
+        self.assertEqual(len(self.tree("other")), len(self.tree("by_words")), "one picture, not two side by side")
+
+    def test_values_that_look_like_options_or_like_nothing(self):
+        picture = self.picture("a.png")
+        self.assert_done("cut", picture, "-o", "by_words", "--attribution", "", "--body", "moon", "--name", "--task")
+        self.assert_done("cut", "--name", "--task", "--task",
+                         self.task(image=picture, output="by_task", attribution="", body="moon", **{"tile-size": 256.0}))
+        self.assertEqual(self.tree("by_task"), self.tree("by_words"))
+        self.assertIn("moon", self.assert_done("info", "by_task").stdout)
 
     def test_a_list_of_pictures_and_a_list_of_boxes(self):
         task = self.task(image=[self.picture("west.png"), self.picture("east.png")], output="both", mosaic="2x1",
@@ -256,15 +268,18 @@ class Tasks(ProgramTest):
 
     def test_a_wrong_task_is_named_with_a_cure(self):
         for keys, says in [({"levles": "0-3"}, ["\"levles\"", "preload --help"]), ({"task": "b.json"}, ["\"task\""]),
-                           ({"command": "cut"}, ["not for preload"]), ({"rate": True}, ["\"rate\"", "has a value"]),
+                           ({"command": "cut"}, ["not for preload", "\"cut\""]), ({"rate": True}, ["\"rate\"", "a text or a number"]),
                            ({"dry-run": 1}, ["\"dry-run\"", "true or false"]), ({"SOURCE": "-x"}, ["\"SOURCE\"", "./"]),
                            ({"bbox": [[]]}, ["\"bbox\""]), ({"rate": {}}, ["\"rate\""]), ({"rate": None}, ["\"rate\""]),
                            ({"--rate": 2}, ["\"--rate\""]), ({"-o": "x"}, ["\"-o\""])]:
             with self.subTest(keys):
-                self.assert_fails(WRONG_USAGE, "preload", "--task", self.task(**keys), says=["task.json", *says])
-        self.assert_fails(WRONG_USAGE, "preload", "--task", "none.json", says=["none.json"])
-        self.write("task.json", b"[]")
-        self.assert_fails(WRONG_USAGE, "preload", "--task", "task.json", says=["task.json"])
+                self.assert_fails(WRONG_USAGE, "preload", "--task", self.task(**keys), says=["terrella preload: task.json", "See terrella preload --help", *says])
+        self.assert_fails(FAILED, "preload", "--task", "none.json", says=["terrella preload: none.json"])
+        for text in (b"[]", b"{", b""):
+            self.assert_fails(FAILED, "preload", "--task", self.write("task.json", text).name, says=["task.json"])
+        self.write("task.json", b'{"bbox": [1, 2, 3, 4], "bbox": [5, 6, 7, 8]}')
+        self.assert_fails(WRONG_USAGE, "preload", "--task", "task.json", says=["task.json", "\"bbox\"", "twice", "list"])
+        self.assert_fails(WRONG_USAGE, "preload", "--task=", says=["--task"])
         self.assert_fails(WRONG_USAGE, "cut", "--task", "task.json", "--task", "task.json", says=["--task", "twice"])
         self.assert_fails(WRONG_USAGE, "cut", "--task", says=["--task"])
         self.assert_fails(WRONG_USAGE, "render", "--task", "task.json", says=["--task"])

@@ -207,13 +207,13 @@ class Viewer:
 
     def is_busy(self):
         """True while the viewer's frame loop runs, draws, or waits for a processor: events may not have acted yet."""
-        for task in Path(f"/proc/{self.program.pid}/task").iterdir():
+        for task in Path(f"/proc/{self.program.pid}/task").glob("*"):
             try:
-                _, name, state = re.split(r"[()]+", (task / "stat").read_text(encoding="ascii"))
-            except FileNotFoundError:
+                name, _, state = (task / "stat").read_text(encoding="utf-8", errors="replace").rpartition(") ")
+            except (FileNotFoundError, ProcessLookupError):
                 continue  # this thread has ended
-            draws = task.name == str(self.program.pid) or name.startswith("llvmpipe")
-            if draws and state.split()[0] in "RD":
+            draws = task.name == str(self.program.pid) or "(llvmpipe" in name
+            if draws and state[0] in "RD":
                 return True
         return False
 

@@ -45,14 +45,17 @@ bool put_on_grid(const CutOptions& options, const PictureFile& picture, const Pl
   return true;
 }
 
+}  // namespace
+
 Result<Body> body_of(const CutOptions& options) {
   return options.body.empty() ? Result<Body>(earth()) : parse_body(options.body);
 }
 
-}  // namespace
-
 bool meets_itself(const CutOptions& options, const PictureInfo& picture, const GeoRect& bounds) {
   if (bounds.east >= bounds.west) return false;
+  // The roots of Web Mercator then meet at 0°.
+  const bool past_zero = bounds.west.deg() < 0.0 || bounds.east.deg() > 0.0;
+  if (options.grid == CutGrid::web_mercator && past_zero) return true;
   CutOptions placed = options;
   placed.bounds = bounds;
   return !plan_cut(picture, placed);

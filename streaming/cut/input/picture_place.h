@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "geo/body.h"
 #include "streaming/cut.h"
 #include "streaming/cut/input/row_reader.h"
 #include "streaming/georeference/placement.h"
@@ -42,6 +43,9 @@ struct PicturePlace {
 
 /// True if a picture crosses ±180° and no grid of the options' tiles keeps both its sides apart.
 [[nodiscard]] bool meets_itself(const CutOptions& options, const PictureInfo& picture, const GeoRect& bounds);
+
+/// The body that the options name; the Earth if they name none.
+[[nodiscard]] Result<Body> body_of(const CutOptions& options);
 
 /// All longitudes of the same latitudes.
 [[nodiscard]] GeoRect all_round(const GeoRect& bounds);
