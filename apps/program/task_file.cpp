@@ -141,7 +141,7 @@ Result<std::vector<std::string>> arguments_of(const Json& task, const CLI::App& 
       return option.get_positional() ? word.is_positional : word.option == &option;
     });
   };
-  const std::string command = subcommand.get_name();
+  const std::string& command = subcommand.get_name();
   std::vector<std::string> stated;
   for (const auto& [key, value] : task.items()) {
     if (key == kCommandKey) {
