@@ -1,5 +1,7 @@
 #include "apps/program/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -111,6 +113,14 @@ std::vector<std::string> reversed_arguments(const CLI::App& app, std::vector<std
 int fail(const char* command, const std::string& why) {
   print_message("terrella {}: {}\n", command, why);
   return kFailed;
+}
+
+void append_option(const std::string& name, const std::string& value, std::vector<std::string>& arguments) {
+  if (value.empty()) {
+    arguments.insert(arguments.end(), {name, value});
+  } else {
+    arguments.push_back(fmt::format("{}={}", name, value));
+  }
 }
 
 int run_command_line(CLI::App& app, std::vector<std::string> arguments, const int& exit_code) {

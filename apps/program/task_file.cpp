@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/program/command_line.h"
 #include "streaming/file_bytes.h"
 #include "streaming/json_fields.h"
 
@@ -106,10 +107,8 @@ Status append(const CLI::Option& option, const std::string& key, const Json& val
     if (option.get_positional()) {
       if (text.starts_with('-')) return Error{"begins with a dash; write ./ before the name of a file"};
       arguments.push_back(text);
-    } else if (text.empty()) {  // after "=" it would be no value at all
-      arguments.insert(arguments.end(), {"--" + key, text});
     } else {
-      arguments.push_back(fmt::format("--{}={}", key, text));
+      append_option("--" + key, text, arguments);
     }
   }
   return Done{};
@@ -127,15 +126,13 @@ const CLI::Option* option_of(const CLI::App& subcommand, const std::string& key)
 Status check_command(const Json& stated, const std::string& command, const std::string& file) {
   if (stated == command) return Done{};
   return Error{
-      fmt::format("the task is not for {0}: its \"command\" is {1}; run terrella with that command and "
-                  "--task {2}",
+      fmt::format("the task is not for {}: its \"command\" is {}; run terrella with that command and --task {}",
                   command, stated.dump(), file)};
 }
 
-/// The task's arguments, without those that `arguments` replace.
+/// The task's arguments, without those that are given beside it.
 Result<std::vector<std::string>> arguments_of(const Json& task, const CLI::App& subcommand,
-                                              const std::vector<std::string>& arguments, const std::string& file) {
-  const std::vector<Word> given = words_of(subcommand, arguments);
+                                              const std::vector<Word>& given, const std::string& file) {
   const auto is_given = [&given](const CLI::Option& option) {
     return std::ranges::any_of(given, [&option](const Word& word) {
       return option.get_positional() ? word.is_positional : word.option == &option;
@@ -211,7 +208,7 @@ Result<std::vector<std::string>, TaskError> with_task(const CLI::App& app, std::
   if (const auto repeated = find_repeated_key(as_text(*bytes))) {
     return wrong_usage(fmt::format("{}: \"{}\" stands there twice; give several values as a list", file, *repeated));
   }
-  const auto stated = arguments_of(*task, subcommand, arguments, file);
+  const auto stated = arguments_of(*task, subcommand, words, file);
   if (!stated) return wrong_usage(file + ": " + stated.error().message);
   arguments.insert(arguments.begin() + 1, stated->begin(), stated->end());
   return arguments;

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "apps/program/command_line.h"
+
 namespace terrella {
 namespace {
 
@@ -68,7 +70,7 @@ void add_value(const CLI::Option& option, py::handle value, std::vector<std::str
     if (py::cast<bool>(value)) words.push_back(name);
     return;
   }
-  for (const std::string& text : texts_of(option, value)) words.push_back(name + "=" + text);
+  for (const std::string& text : texts_of(option, value)) append_option(name, text, words);
 }
 
 bool is_keyword(const CLI::Option& option, const std::vector<std::string>& left_out) {

@@ -30,24 +30,18 @@ int encoder_count(int jobs) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
 }
 
-bool is_planet(const CutPlan& plan) {
-  const double rows_deg = top_row_deg(plan.grid) - bottom_row_deg(plan.grid);
-  return plan.wraps && plan.finest.y0 == 0 && begins_at_planet(plan.grid) &&
-         static_cast<double>(plan.finest.y1) * plan.pixel_deg > rows_deg - plan.pixel_deg;
-}
-
 /// True if tiles are JPEG where they are opaque, and PNG at the picture's outline. An MBTiles file has one format.
-bool has_png_outline(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
+bool has_png_outline(const CutOptions& options, const CutInput& input) {
   if (options.format || input.numbers) return false;
   const PictureInfo& picture = input.rows->info();
-  if (output_kind(options.output) == OutputKind::mbtiles) return !picture.has_alpha && is_planet(plan);
-  return !picture.has_alpha || picture.opaque_inside;
+  const bool may_mix = output_kind(options.output) != OutputKind::mbtiles;
+  return !picture.has_alpha || (may_mix && picture.opaque_inside);
 }
 
 PixelKind pixel_kind(const CutOptions& options, const CutInput& input, const CutPlan& plan) {
   if (input.numbers) return input.numbers->floats ? PixelKind::number : PixelKind::height;
   if (input.rows->info().has_alpha) return PixelKind::alpha;
-  return has_png_outline(options, input, plan) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
+  return has_png_outline(options, input) && !is_planet(plan) ? PixelKind::alpha : PixelKind::opaque;
 }
 
 std::optional<std::uint16_t> nodata_of(const CutInput& input) {
@@ -61,7 +55,7 @@ std::optional<float> float_nodata_of(const CutInput& input) {
 }
 
 TileSetInfo describe(const CutOptions& options, const CutPlan& plan, const CutInput& input) {
-  const bool needs_png = !has_png_outline(options, input, plan);
+  const bool needs_png = !has_png_outline(options, input);
   return {.name = options.name,
           .attribution = options.attribution,
           .body = options.body,
@@ -90,7 +84,7 @@ struct Job {
                        .finest = plan.grid.max_level,
                        .heights = input.numbers.has_value(),
                        .floats = input.numbers && input.numbers->floats,
-                       .png_outline = has_png_outline(options, input, plan),
+                       .png_outline = has_png_outline(options, input),
                        .nodata = float_nodata_of(input)},
             .jobs = encoder_count(options.jobs),
             .output = claim.output,
@@ -191,9 +185,7 @@ Result<CutPlan> plan_input(const CutOptions& options, CutInput& input) {
 
 /// Fails if the output's format has no geodetic tiles, which the options ask for.
 Status check_grid_of_output(const CutOptions& options) {
-  const OutputKind kind = output_kind(options.output);
-  const bool web = kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
-  if (!web || options.grid == CutGrid::web_mercator) return Done{};
+  if (!is_web_format(options.output) || options.grid == CutGrid::web_mercator) return Done{};
   return Error{fmt::format(
       "{}: such a file holds tiles in Web Mercator alone; give ‹grid› webmercator, or name an output that ends in "
       ".gpkg, or a folder",

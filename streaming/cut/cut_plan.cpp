@@ -267,6 +267,12 @@ PixelRect pixels_at(const CutPlan& plan, int level) {
           .y1 = (plan.finest.y1 + rest) >> shift};
 }
 
+bool is_planet(const CutPlan& plan) {
+  const double rows_deg = top_row_deg(plan.grid) - bottom_row_deg(plan.grid);
+  return plan.wraps && plan.finest.y0 == 0 && begins_at_planet(plan.grid) &&
+         static_cast<double>(plan.finest.y1) * plan.pixel_deg > rows_deg - plan.pixel_deg;
+}
+
 double finest_row_area(const CutPlan& plan, std::int64_t y) {
   if (plan.grid.projection == Projection::equal_area) return 1.0;
   const bool mercator = plan.grid.projection == Projection::web_mercator;

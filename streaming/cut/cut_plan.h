@@ -54,6 +54,9 @@ struct PlannedCut {
 /// The whole picture, or its two parts on either side of ±180°. thread: any
 [[nodiscard]] std::vector<CutPiece> pieces_of(const CutPlan& plan);
 
+/// True if a picture covers the planet, or the square of Web Mercator. thread: any
+[[nodiscard]] bool is_planet(const CutPlan& plan);
+
 /// Every pixel of a level that contains a part of the picture.
 [[nodiscard]] PixelRect pixels_at(const CutPlan& plan, int level);
 

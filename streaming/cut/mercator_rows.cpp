@@ -77,7 +77,7 @@ class MercatorRows : public RowReader {
     const PixelRect& px = plan.finest;
     info_ = {.width_px = px.x1 - px.x0,
              .height_px = px.y1 - px.y0,
-             .has_alpha = info_.has_alpha || !covers_square(),
+             .has_alpha = info_.has_alpha || !is_planet(plan),
              .opaque_inside = !info_.has_alpha || info_.opaque_inside,
              .orientation = info_.orientation};
     for (const LineTaps& column : columns_) {
@@ -114,11 +114,6 @@ class MercatorRows : public RowReader {
 
  private:
   static constexpr std::size_t kChannels = Tile::kChannels;
-
-  [[nodiscard]] bool covers_square() const {
-    const PixelRect& px = plan_.finest;
-    return plan_.wraps && px.y0 == 0 && static_cast<double>(px.y1) * plan_.pixel_deg > 360.0 - plan_.pixel_deg;
-  }
 
   [[nodiscard]] LineTaps row_taps(std::int64_t row) const {
     const auto at = [&](double y) { return picture_row(picture_, figure_, mercator_latitude(plan_, y)); };

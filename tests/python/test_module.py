@@ -107,6 +107,8 @@ class Commands(ModuleTest):
         info = terrella.info(tiles, verify=True)
         self.assertEqual(info["name"], "A planet")
         self.assertEqual(info, terrella.info(str(tiles), verify=True))
+        terrella.cut(PICTURE, output=self.folder / "moon", attribution="", body="moon", tile_size=1024)
+        self.assertEqual(terrella.info(self.folder / "moon")["body"], "moon", "an empty text takes no other option")
 
     def test_preload_merge_and_convert(self):
         address = serve(self, NATURAL_EARTH)

@@ -14,10 +14,13 @@ OutputKind output_kind(const std::filesystem::path& output) {
   return ending == ".pmtiles" ? OutputKind::pmtiles : OutputKind::folder;
 }
 
-Status check_output(const std::filesystem::path& output, const TileSetInfo& info) {
+bool is_web_format(const std::filesystem::path& output) {
   const OutputKind kind = output_kind(output);
-  const bool web = kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
-  return web ? check_web_tiles(output, info) : Status(Done{});
+  return kind == OutputKind::mbtiles || kind == OutputKind::pmtiles;
+}
+
+Status check_output(const std::filesystem::path& output, const TileSetInfo& info) {
+  return is_web_format(output) ? check_web_tiles(output, info) : Status(Done{});
 }
 
 Result<std::unique_ptr<TileWriter>> make_tile_writer(const WriterSetup& setup) {

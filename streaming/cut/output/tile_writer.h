@@ -36,6 +36,8 @@ struct WriterSetup {
 enum class OutputKind { folder, geopackage, mbtiles, pmtiles };
 /// Kind of an output, by the ending of its name: .gpkg, .mbtiles, .pmtiles, else a folder.
 [[nodiscard]] OutputKind output_kind(const std::filesystem::path& output);
+/// True for the formats that hold tiles in Web Mercator alone: MBTiles and PMTiles.
+[[nodiscard]] bool is_web_format(const std::filesystem::path& output);
 /// Fails if the output's format cannot hold the set. Folders and GeoPackages hold every set.
 [[nodiscard]] Status check_output(const std::filesystem::path& output, const TileSetInfo& info);
 
