@@ -92,11 +92,11 @@ class MergedCaches : public TileSource, public TileLister {
     const auto there = tile.step();
     if (!there) return unreadable(cache, there.error());
     const auto bytes = *there ? tile.blob(0) : std::nullopt;
-    EncodedTile read;
-    if (bytes) read.bytes.assign(bytes->begin(), bytes->end());
+    EncodedTile answer;
+    if (bytes) answer.bytes.assign(bytes->begin(), bytes->end());
     tile.reset();
-    if (read.bytes.empty()) return TileFailure{MissingKind::blank, "the tile is empty"};
-    return read;
+    if (answer.bytes.empty()) return TileFailure{MissingKind::blank, "the tile is empty"};
+    return answer;
   }
 
  private:
@@ -126,9 +126,9 @@ class MergedCaches : public TileSource, public TileLister {
   [[nodiscard]] Result<OpenQuery, TileFailure> query(std::size_t cache, const char* sql) const {
     auto reader = SqliteReader::open(caches_[cache], kMaxTileBytes);
     if (!reader) return unreadable(cache, reader.error());
-    auto query = reader->prepare(sql);
-    if (!query) return unreadable(cache, query.error());
-    return OpenQuery{*std::move(reader), *std::move(query)};
+    auto prepared = reader->prepare(sql);
+    if (!prepared) return unreadable(cache, prepared.error());
+    return OpenQuery{*std::move(reader), *std::move(prepared)};
   }
 
   const std::vector<fs::path> caches_;
