@@ -231,10 +231,11 @@ Status finish_archive(const PreloadCommand& command, const PreloadSource& source
   const bool whole = result.end == PreloadEnd::complete && result.counts.missing() == 0 && !is_empty(result.counts);
   if (!whole || !is_web_format(command.output)) return Done{};
   Progress progress("writing " + command.output);
-  Status made = make_archive(command.output, source, plan, std::move(cache), [&](std::int64_t done, std::int64_t total) {
-    progress.show(done, total);
-    return !StopSignals::came();
-  });
+  Status made =
+      make_archive(command.output, source, plan, std::move(cache), [&](std::int64_t done, std::int64_t total) {
+        progress.show(done, total);
+        return !StopSignals::came();
+      });
   if (made || !StopSignals::came()) return made;
   result.end = PreloadEnd::stopped;
   return Done{};
