@@ -75,7 +75,7 @@ class Merge(ProgramTest):
 
     def test_what_has_no_place_in_the_file_is_refused(self):
         write_folder(self.folder / "plate", {(0, 0, 0): png(TILE_PX, TILE_PX)},
-                     {"projection": "equirectangular", "max_level": 0, "bounds": [-180, -90, 180, 90]})
+                     {"projection": "equirectangular", "root_span_deg": 180, "max_level": 0, "bounds": [-180, -90, 180, 90]})
         self.assert_done("preload", "plate", "-o", "plate.gpkg")
         for kind in KINDS:
             self.assert_fails(FAILED, "merge", "plate.gpkg", "-o", f"a.{kind}",
