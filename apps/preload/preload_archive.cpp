@@ -9,9 +9,9 @@
 #include "base/hash_mix.h"
 #include "streaming/cache/sqlite_writer.h"
 #include "streaming/convert/convert.h"
+#include "streaming/convert/merge_into.h"
 #include "streaming/cut/output/tile_writer.h"
 #include "streaming/cut/output_claim.h"
-#include "streaming/sets/open_tile_set.h"
 #include "streaming/tile_lister.h"
 
 namespace terrella {
@@ -34,7 +34,7 @@ std::string mark_of(const PreloadSource& source, const TilePlan& plan) {
 /// The planned tiles of a cache. An earlier preload of another plan may have left more.
 class PlannedTiles : public TileSource, public TileLister {
  public:
-  PlannedTiles(const TilePlan& plan, TileCache& cache, std::unique_ptr<TileSource> stored)
+  PlannedTiles(const TilePlan& plan, TileCache& cache, std::shared_ptr<TileSource> stored)
       : plan_(plan), cache_(cache), stored_(std::move(stored)) {}
 
   [[nodiscard]] const TileSetInfo& info() const override { return stored_->info(); }
@@ -42,6 +42,8 @@ class PlannedTiles : public TileSource, public TileLister {
 
   [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
     bool goes_on = true;
+    const auto look = [](const TileId&) { return true; };
+    if (Status all = dynamic_cast<TileLister&>(*stored_).for_each_tile(look); !all) return all;
     const auto feed = plan_.walk();
     for (auto run = feed->next(); run && goes_on; run = feed->next()) {
       const auto call_row = [&](std::int64_t y, const CacheRecord& record) {
@@ -58,7 +60,7 @@ class PlannedTiles : public TileSource, public TileLister {
  private:
   const TilePlan& plan_;
   TileCache& cache_;
-  const std::unique_ptr<TileSource> stored_;
+  const std::shared_ptr<TileSource> stored_;
 };
 
 }  // namespace
@@ -86,11 +88,10 @@ Status make_archive(const std::string& output, const PreloadSource& source, cons
                     std::shared_ptr<TileCache> cache,
                     const std::function<bool(std::int64_t done, std::int64_t total)>& progress) {
   const std::string file = cache_file_of(output);
-  auto stored = open_stored_tile_set(file);
-  if (!stored) return stored.error();
+  auto stored = merged_tiles({file}, cache->info(), output);
   const auto made = convert({.from = file,
                              .to = output,
-                             .source = std::make_shared<PlannedTiles>(plan, *cache, *std::move(stored)),
+                             .source = std::make_shared<PlannedTiles>(plan, *cache, std::move(stored)),
                              .mark = mark_of(source, plan),
                              .progress = progress});
   if (!made) return made.error();

@@ -21,7 +21,7 @@ struct ConvertOptions {
   bool geodetic_mbtiles = false;  ///< an MBTiles file `from` is geodetic, whatever it states
   /// Replaces the file, and is a TileLister; `from` is then its name alone.
   std::shared_ptr<TileSource> source = {};
-  std::string mark = kConvertMark;  ///< of the output; with another one nothing is replaced
+  std::string mark = kConvertMark;  ///< mark of the output; with another one nothing is replaced
   /// Called with the tiles done and the total. Returning false stops the work; nothing is left behind. thread: the
   /// caller's
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};

@@ -126,6 +126,9 @@ class MergedCaches : public TileSource, public TileLister {
   [[nodiscard]] Result<OpenQuery, TileFailure> query(std::size_t cache, const char* sql) const {
     auto reader = SqliteReader::open(caches_[cache], kMaxTileBytes);
     if (!reader) return unreadable(cache, reader.error());
+    // One transaction for all tiles: each one of its own would lock and look for journals.
+    auto begin = reader->prepare("BEGIN");
+    if (auto begun = begin ? begin->step() : begin.error(); !begun) return unreadable(cache, begun.error());
     auto prepared = reader->prepare(sql);
     if (!prepared) return unreadable(cache, prepared.error());
     return OpenQuery{*std::move(reader), *std::move(prepared)};
@@ -141,13 +144,18 @@ class MergedCaches : public TileSource, public TileLister {
 
 }  // namespace
 
+std::shared_ptr<TileSource> merged_tiles(const std::vector<fs::path>& caches, TileSetInfo info,
+                                         const fs::path& output) {
+  return std::make_shared<MergedCaches>(caches, std::move(info), output);
+}
+
 Result<MergeSummary> merge_into(const std::vector<fs::path>& caches, const fs::path& output,
                                 const MergeProgress& progress) {
   const auto together = report_together(caches);
   if (!together) return together.error();
   const auto merged = convert({.from = caches.front(),
                                .to = output,
-                               .source = std::make_shared<MergedCaches>(caches, together->info, output),
+                               .source = merged_tiles(caches, together->info, output),
                                .mark = "merged",
                                .progress = progress});
   if (!merged) return merged.error();
