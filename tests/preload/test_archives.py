@@ -109,9 +109,13 @@ class Archives(PreloadTest):
                 return set(base.execute("SELECT zoom_level, tile_column, tile_row FROM tiles"))
         return set()
 
-    def work_folders(self):
-        """Folders in which the file is written, those of killed runs included."""
-        return {path.name for path in self.cache.parent.glob(".web*.part") if path.is_dir()}
+    def lists(self):
+        """The list of tiles that each run begins with when all tiles are there; a killed run leaves its own."""
+        found = set()
+        for path in self.cache.parent.glob(".web*.part/order"):
+            with contextlib.suppress(FileNotFoundError):
+                found.add((path, path.stat().st_mtime_ns))
+        return found
 
     def test_killed_it_goes_on_to_the_same_bytes(self):
         random.seed(35)
@@ -122,8 +126,8 @@ class Archives(PreloadTest):
             self.cache = self.folder / kind / f"web.{kind}"
             cuts, there, writing = [], [], 0
             for kill in range(KILLS):
-                goal, before = len(self.kept()) + random.randint(0, 2 * len(PLACES) // KILLS), self.work_folders()
-                self.end(kind, lambda: self.work_folders() - before if 2 * kill >= KILLS else len(self.kept()) >= goal,
+                goal, before = len(self.kept()) + random.randint(0, 2 * len(PLACES) // KILLS), self.lists()
+                self.end(kind, lambda: self.lists() - before if 2 * kill >= KILLS else len(self.kept()) >= goal,
                          signal.SIGKILL)
                 writing += not self.cache.exists() and len(self.kept()) == len(PLACES)
                 cuts.append(self.server.cut())
