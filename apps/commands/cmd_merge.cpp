@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/open_scene/options/option_checks.h"
 #include "apps/process/console.h"
 #include "apps/process/progress.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
-#include "streaming/cache/merge_caches.h"
+#include "streaming/convert/merge_into.h"
+#include "streaming/cut/output/tile_writer.h"
 
 namespace terrella {
 namespace {
@@ -31,6 +31,7 @@ constexpr const char* kMergeExamples =
     "Examples:\n"
     "  terrella merge shard-*.gpkg -o planet.gpkg          join what several machines preloaded\n"
     "  terrella merge old.gpkg new.gpkg -o old.gpkg        add one cache to another\n"
+    "  terrella merge shard-*.gpkg -o planet.pmtiles       one file for a web server, in Web Mercator\n"
     "A tile wins over a missing-tile record; otherwise the later record wins. Levels may differ. Pinned tiles stay "
     "pinned.";
 
@@ -55,7 +56,8 @@ int run_merge(const MergeCommand& command) {
   Result<MergeSummary> summary = Error{};
   {
     Progress progress("merging into " + command.output);
-    summary = merge_caches(caches, command.output, [&](std::int64_t done, std::int64_t total) {
+    const auto merge = is_web_format(command.output) ? merge_into : merge_caches;
+    summary = merge(caches, command.output, [&](std::int64_t done, std::int64_t total) {
       progress.show(done, total);
       return !StopSignals::came();
     });
@@ -76,10 +78,10 @@ void add_merge_command(CLI::App& app, int& exit_code) {
       ->type_name("CACHE...");
   command
       ->add_option("-o,--output", options->output,
-                   "Write this cache; an existing file is replaced only if it is one of the inputs")
+                   "Write this cache, or an MBTiles or a PMTiles file, which take pictures in Web Mercator alone; an "
+                   "existing file is replaced only if it is one of the inputs")
       ->required()
-      ->check(cache_name())
-      ->type_name("OUT.gpkg");
+      ->type_name("OUT.gpkg|.mbtiles|.pmtiles");
   command->add_flag("--json", options->json, "Print the result as one JSON object");
   command->callback([options, &exit_code] { exit_code = run_merge(*options); });
 }

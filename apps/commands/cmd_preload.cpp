@@ -11,6 +11,7 @@
 
 #include "apps/open_scene/open_cache.h"
 #include "apps/preload/missing_report.h"
+#include "apps/preload/preload_archive.h"
 #include "apps/preload/preload_options.h"
 #include "apps/preload/preload_plan.h"
 #include "apps/preload/preload_progress.h"
@@ -20,9 +21,11 @@
 #include "apps/preload/preload_times.h"
 #include "apps/process/console.h"
 #include "apps/process/open_files.h"
+#include "apps/process/progress.h"
 #include "apps/process/stop_signals.h"
 #include "apps/process/tile_list_file.h"
 #include "apps/program/commands.h"
+#include "streaming/cut/output/tile_writer.h"
 #include "streaming/preload/one_column.h"
 #include "streaming/preload/wanted_tiles.h"
 
@@ -36,6 +39,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "  terrella preload wmts.json --times 2026-06-01/2026-06-30/P1D --bbox 5,43,17,49 -o june.gpkg\n"
+    "  terrella preload 'https://web.example/{z}/{x}/{y}.png' --projection web-mercator --levels 0-9 -o web.pmtiles\n"
     "  terrella preload --task alps.json\n"
     "Preloaded tiles are pinned: a viewer's cache limit never evicts them. To unpin them:\n"
     "  terrella preload wmts.json --release -o trip.gpkg";
@@ -70,7 +74,8 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
 
 Result<std::shared_ptr<TileCache>> cache_of(const PreloadCommand& command, const PreloadSource& source) {
   if (source.cache) return source.cache;
-  auto cache = open_cache("terrella preload", command.output, source.cache_info, source.key, command.cache_size_mb, {});
+  auto cache = open_cache("terrella preload", cache_file_of(command.output), source.cache_info, source.key,
+                          command.cache_size_mb, {});
   if (!cache) return cache.error();
   return *std::move(cache);
 }
@@ -83,8 +88,11 @@ struct Held {
 
 /// Counts nothing if the file does not exist.
 Result<Held> count_held(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  const auto archived = has_archive(command.output, source, plan);
+  if (!archived) return archived.error();
+  if (*archived) return Held{.there = plan.total(), .settled = plan.total()};
   std::error_code unknown;
-  if (!std::filesystem::exists(command.output, unknown)) return Held{};
+  if (!std::filesystem::exists(cache_file_of(command.output), unknown)) return Held{};
   const auto cache = cache_of(command, source);
   if (!cache) return cache.error();
   WantedTiles wanted(plan, **cache, refresh_age(command));
@@ -167,10 +175,19 @@ bool has_wrong_grid(const PreloadSource& source, const TilePlan& plan, TileCache
   return one_column && *one_column;
 }
 
+/// True if the server has none of the planned tiles.
+bool is_empty(const PreloadCounts& c) {
+  return c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned;
+}
+
 /// Reports an incomplete run to the user and returns the exit code.
 int conclude(const PreloadCommand& command, const PreloadResult& result) {
   const PreloadCounts& c = result.counts;
-  const char* again = "the same command goes on where this one ended";
+  std::string again = "the same command goes on where this one ended";
+  if (is_web_format(command.output)) {
+    again += fmt::format(" and then makes {}; until then {} has the tiles, and terrella convert takes it as it is",
+                         command.output, cache_file_of(command.output));
+  }
   if (result.end == PreloadEnd::stopped) {
     print_message("terrella preload: stopped with {} of {} tiles to go; {}\n", c.planned - c.passed, c.planned, again);
     return kDoneInPart;
@@ -179,7 +196,7 @@ int conclude(const PreloadCommand& command, const PreloadResult& result) {
     print_message("terrella preload: given up, {} does not answer any more; {}\n", command.source.redacted(), again);
     return kDoneInPart;
   }
-  if (c.planned > 0 && c.stored + c.there + c.unchanged + c.blank == 0 && c.absent == c.planned) {
+  if (is_empty(c)) {
     print_message("terrella preload: the server has none of the {} tiles; is {} right, and are the levels?\n",
                   c.planned, command.source.redacted());
     return kDoneInPart;
@@ -208,12 +225,40 @@ struct Brought {
   bool has_wrong_grid = false;
 };
 
+/// Makes the archive of a whole preload, if the output is one.
+Status finish_archive(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan,
+                      std::shared_ptr<TileCache> cache, PreloadResult& result) {
+  const bool whole = result.end == PreloadEnd::complete && result.counts.missing() == 0 && !is_empty(result.counts);
+  if (!whole || !is_web_format(command.output)) return Done{};
+  Progress progress("writing " + command.output);
+  Status made =
+      make_archive(command.output, source, plan, std::move(cache), [&](std::int64_t done, std::int64_t total) {
+        progress.show(done, total);
+        return !StopSignals::came();
+      });
+  if (made || !StopSignals::came()) return made;
+  result.end = PreloadEnd::stopped;
+  return Done{};
+}
+
+/// Answer to a preload whose archive was made before.
+PreloadReport all_there(const PreloadCommand& command, const TilePlan& plan) {
+  PreloadReport report;
+  report.output = command.output;
+  PreloadCounts& counts = report.result.counts;
+  counts.planned = counts.passed = counts.there = plan.total();
+  return report;
+}
+
 Result<Brought> bring(const PreloadCommand& command, const PreloadSource& source, const TilePlan& plan) {
+  const auto archived = has_archive(command.output, source, plan);
+  if (!archived) return archived.error();
   auto missing = MissingReport::open(command.missing_file);
   if (!missing) return missing.error();
   auto stored = TileListFile::open(command.stored_file, TileListFile::Mode::append);
   if (!stored) return stored.error();
-  const auto cache = cache_of(command, source);
+  if (*archived) return Brought{.report = all_there(command, plan)};
+  auto cache = cache_of(command, source);
   if (!cache) return cache.error();
   PreloadOptions options = preload_options(command, source);
   options.on_missing = [&](const TileId& id, PreloadMissing kind, const std::string& why) {
@@ -231,12 +276,13 @@ Result<Brought> bring(const PreloadCommand& command, const PreloadSource& source
     result = preload(plan, **cache, source.make_origin, options);
   }
   if (!result) return Error{result.error().message + "; the same command goes on"};
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   for (const Status& listed : {missing->close(), stored->close()}) {
     if (!listed) return listed.error();
   }
-  return Brought{.report = {command.output, {}, *result, missing->groups(), seconds},
-                 .has_wrong_grid = has_wrong_grid(source, plan, **cache, *result)};
+  const bool wrong_grid = has_wrong_grid(source, plan, **cache, *result);
+  if (Status made = finish_archive(command, source, plan, *std::move(cache), *result); !made) return made.error();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return Brought{.report = {command.output, {}, *result, missing->groups(), seconds}, .has_wrong_grid = wrong_grid};
 }
 
 /// Reports what is wrong with a run to the user and returns the exit code.
@@ -383,11 +429,13 @@ int run(PreloadCommand& command) {
   PreloadTiff tiff{.cache = {}, .cache_size_mb = command.cache_size_mb};
   std::error_code unknown;
   // A dry run makes no file.
-  if (!command.dry_run || std::filesystem::exists(command.output, unknown)) tiff.cache = command.output;
+  const bool has_cache = !is_web_format(command.output);
+  if (has_cache && (!command.dry_run || std::filesystem::exists(command.output, unknown))) tiff.cache = command.output;
   const auto source = open_preload_source(command.source, command.remote, http, tiff);
   if (!source) return fail("preload", source.error().message + WaitLimit::advice());
   if (!source->set.refuse_bulk.empty())
     return fail("preload", command.source.redacted() + ": " + source->set.refuse_bulk);
+  if (Status fits = check_archive(command.output, *source); !fits) return fail("preload", fits.error().message);
   const auto instants = instants_of(command, *source);
   if (!instants) return fail("preload", instants.error().message);
   auto plan = make_preload_plan(command, source->set.info);

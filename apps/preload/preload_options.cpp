@@ -8,6 +8,7 @@
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/options/shard_option.h"
 #include "base/number.h"
+#include "streaming/cut/output/tile_writer.h"
 #include "tiles/tile_grid.h"
 
 namespace terrella {
@@ -86,7 +87,7 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
 void add_times_option(CLI::App& app, PreloadCommand& command) {
   app.add_option(
          "--times", command.times,
-         "Load these times of the layer, each into a cache of its own: CACHE.2026-06-21.gpkg; A/B: all from A to "
+         "Load these times of the layer, each into a file of its own: CACHE.2026-06-21.gpkg; A/B: all from A to "
          "B (default: one time, as --layer-time says)")
       ->type_name("A/B/P1D[,...]")
       ->delimiter(',')
@@ -121,10 +122,11 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
          "SOURCE", command.source,
          "A URL template, the address of a WMTS or WMS, a source description (JSON, <GDAL_WMS>), or a tile set on disk")
       ->required();
-  app.add_option("-o,--output", command.output, "Write tiles to this cache; an existing cache is extended")
+  app.add_option("-o,--output", command.output,
+                 "Write tiles to this cache; an existing cache is extended. An MBTiles or a PMTiles file, for tiles in "
+                 "Web Mercator, is made at the end, of a cache beside it")
       ->required()
-      ->check(cache_name())
-      ->type_name("CACHE.gpkg");
+      ->type_name("CACHE.gpkg|OUT.mbtiles|OUT.pmtiles");
   add_area_options(app, command);
   add_remote_set_options(app, command.remote);
   add_times_option(app, command);
@@ -163,8 +165,14 @@ Status check_together(const PreloadCommand& command) {
   if (!command.flight.empty() && (!command.boxes.empty() || !command.polygons.empty())) {
     return Error{"--flight and --bbox or --polygon: one at a time; the same cache takes both, one after the other"};
   }
-  if (!command.output.ends_with(".gpkg")) {
-    return Error{in_quotes(command.output) + ": --output names a GeoPackage, something that ends in .gpkg"};
+  if (is_web_format(command.output)) {
+    if (command.release || command.cache_size_mb > 0 || command.refresh_older_than_days) {
+      return Error{in_quotes(command.output) +
+                   ": --release, --cache-size and --refresh-older-than are for caches; name an output that ends in "
+                   ".gpkg, and use terrella convert on it afterwards"};
+    }
+  } else if (!command.output.ends_with(".gpkg")) {
+    return Error{in_quotes(command.output) + ": --output names a file that ends in .gpkg, .mbtiles or .pmtiles"};
   }
   return Done{};
 }

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <ctime>
+#include <numeric>
 #include <optional>
 #include <string>
 
 #include "streaming/cache/cache_database.h"
 #include "streaming/cache/cache_part.h"
-#include "streaming/cache/cache_report.h"
 #include "streaming/cache/cache_rows.h"
 #include "streaming/cache/cache_schema.h"
 #include "streaming/sets/directory_source.h"
@@ -165,15 +165,22 @@ Status copy_rows(const fs::path& cache, const char* sql, MergedFile& merged, Mer
   return Done{};
 }
 
-/// Checks that all inputs belong to one source, and adds up their rows. Returns the first report with the levels of
-/// all.
-Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64_t& rows) {
+Status check_output(const std::vector<fs::path>& caches, const fs::path& output) {
+  std::error_code error;
+  if (!fs::exists(output, error)) return Done{};
+  for (const fs::path& cache : caches) {
+    if (fs::equivalent(cache, output, error)) return Done{};
+  }
+  return Error{output.string() + ": is there already; name it among the caches too, or name another output"};
+}
+
+}  // namespace
+
+Result<CacheReport> report_together(const std::vector<fs::path>& caches) {
   std::optional<CacheReport> first;
   for (const fs::path& cache : caches) {
     Result<CacheReport> report = read_cache_report(cache, std::time(nullptr));
     if (!report) return report.error();
-    rows += report->tiles;
-    for (const std::int64_t missing : report->missing) rows += missing;
     if (!first) {
       first = *std::move(report);
     } else if (!same_source(report->source_key, first->source_key)) {
@@ -187,28 +194,19 @@ Result<CacheReport> check_inputs(const std::vector<fs::path>& caches, std::int64
       TileGrid& all = first->info.grid;
       all.min_level = std::min(all.min_level, report->info.grid.min_level);
       all.max_level = std::max(all.max_level, report->info.grid.max_level);
+      first->tiles += report->tiles;
+      for (std::size_t kind = 0; kind < first->missing.size(); ++kind) first->missing[kind] += report->missing[kind];
     }
   }
   if (!first) return Error{"no cache to join; name one or more"};
   return *std::move(first);
 }
 
-Status check_output(const std::vector<fs::path>& caches, const fs::path& output) {
-  std::error_code error;
-  if (!fs::exists(output, error)) return Done{};
-  for (const fs::path& cache : caches) {
-    if (fs::equivalent(cache, output, error)) return Done{};
-  }
-  return Error{output.string() + ": is there already; name it among the caches too, or name another output"};
-}
-
-}  // namespace
-
 Result<MergeSummary> merge_caches(const std::vector<fs::path>& caches, const fs::path& output,
                                   const MergeProgress& progress) {
-  Progress rows{progress};
-  const Result<CacheReport> first = check_inputs(caches, rows.total);
+  const Result<CacheReport> first = report_together(caches);
   if (!first) return first.error();
+  Progress rows{.call = progress, .total = std::reduce(first->missing.begin(), first->missing.end(), first->tiles)};
   if (Status free = check_output(caches, output); !free) return free.error();
   MergedFile merged(output);
   if (Status begun = merged.begin(*first); !begun) return begun.error();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/cache/cache_report.h"
 
 namespace terrella {
 
@@ -17,6 +18,9 @@ struct MergeSummary {
 
 /// Returns false to stop the merge; nothing is left behind.
 using MergeProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+/// Sums of the caches, with the levels of all. Fails, by name, for caches of different sources or grids. thread: any
+[[nodiscard]] Result<CacheReport> report_together(const std::vector<std::filesystem::path>& caches);
 
 /// Merges caches of one source into one file, with validators, expiry, last use and missing-tile records.
 /// If two caches have a record of one place, a tile wins over a missing-tile record, otherwise the record stored later

@@ -21,13 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Mark of sets that convert() wrote, and the key of its work folders.
-constexpr const char* kConvertMark = "converted";
 constexpr const char* kStopped = "interrupted; nothing was written, it can be run again";
 
 Status may_be_replaced(const OutputClaim& claim, const fs::path& there) {
   std::error_code failed;
   const bool in_use = fs::exists(there, failed) && !fs::is_empty(there, failed);
+  if (in_use && claim.mark != kConvertMark) {
+    return Error{claim.output.string() + ": is there already; name another output, or move this one away"};
+  }
   if (in_use && !claim.force) {
     return Error{
         fmt::format("{}: is there already; give ‹force› to replace it, or name another output", claim.output.string())};
@@ -37,7 +38,7 @@ Status may_be_replaced(const OutputClaim& claim, const fs::path& there) {
 
 class Conversion {
  public:
-  Conversion(const ConvertOptions& options, OutputClaim claim, std::unique_ptr<TileSource> source)
+  Conversion(const ConvertOptions& options, OutputClaim claim, std::shared_ptr<TileSource> source)
       : options_(options), claim_(std::move(claim)), source_(std::move(source)) {
     summary_.info = source_->info();
   }
@@ -138,7 +139,7 @@ class Conversion {
                           .part = part,
                           .info = summary_.info,
                           .last_change = last_change_of({options_.from}),
-                          .mark = kConvertMark,
+                          .mark = claim_.mark,
                           .may_replace = [this](const fs::path& there) { return may_be_replaced(claim_, there); }});
     if (!writer) return writer.error();
     writer_ = *std::move(writer);
@@ -147,7 +148,7 @@ class Conversion {
 
   const ConvertOptions& options_;
   const OutputClaim claim_;
-  const std::unique_ptr<TileSource> source_;
+  const std::shared_ptr<TileSource> source_;
   std::unique_ptr<TileWriter> writer_;
   TileFormats formats_;
   ZoomRange levels_;
@@ -158,12 +159,16 @@ Result<ConvertSummary> run(const ConvertOptions& options) {
   if (options.to.empty()) return Error{"no output is named"};
   OutputClaim claim{.output = options.to.filename().empty() ? options.to.parent_path() : options.to,
                     .images = {options.from},
-                    .mark = kConvertMark,
+                    .mark = options.mark,
                     .force = options.force};
-  auto source = open_stored_tile_set(options.from, options.geodetic_mbtiles);
-  if (!source) return source.error();
+  std::shared_ptr<TileSource> source = options.source;
+  if (!source) {
+    auto opened = open_stored_tile_set(options.from, options.geodetic_mbtiles);
+    if (!opened) return opened.error();
+    source = *std::move(opened);
+  }
   if (Status may = may_be_replaced(claim, claim.output); !may) return may.error();
-  return Conversion(options, std::move(claim), *std::move(source)).run();
+  return Conversion(options, std::move(claim), std::move(source)).run();
 }
 
 }  // namespace

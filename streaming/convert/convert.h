@@ -3,17 +3,25 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <string>
 
 #include "base/result.h"
 #include "tiles/tile_source.h"
 
 namespace terrella {
 
+/// Mark of sets that convert() wrote, and the key of its work folders.
+inline constexpr const char* kConvertMark = "converted";
+
 struct ConvertOptions {
   std::filesystem::path from;     ///< a folder, GeoPackage, MBTiles or PMTiles file; a cache too
   std::filesystem::path to;       ///< *.gpkg, *.mbtiles, *.pmtiles, else a folder
   bool force = false;             ///< replaces a tile set that cut() or convert() wrote
   bool geodetic_mbtiles = false;  ///< an MBTiles file `from` is geodetic, whatever it states
+  /// Replaces the file, and is a TileLister; `from` is then its name alone.
+  std::shared_ptr<TileSource> source = {};
+  std::string mark = kConvertMark;  ///< mark of the output; with another one nothing is replaced
   /// Called with the tiles done and the total. Returning false stops the work; nothing is left behind. thread: the
   /// caller's
   std::function<bool(std::int64_t done, std::int64_t total)> progress{};

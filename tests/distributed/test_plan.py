@@ -63,6 +63,7 @@ class Plans(unittest.TestCase):
                            ("join", lambda: plan_cut("/p", **where, join=True)),
                            ("fewer parts", lambda: plan_preload("/s", **where, rate=0.02)),
                            ("rate", lambda: plan_preload("/s", **where, rate=float("nan"))),
+                           ("ends in .gpkg", lambda: plan_preload("/s", output="/o.pmtiles", parts=3, rate=1)),
                            ("times", lambda: plan_preload("/s", **where, rate=1, times="2026-06-01")),
                            ("force", lambda: plan_film(flight="/f", output="/%d.png", parts=3, force=True)),
                            ("%05d", lambda: plan_film(flight="/f", output="/film.mp4", parts=3))]:

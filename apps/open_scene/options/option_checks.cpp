@@ -54,17 +54,6 @@ CLI::Validator whole_number_in(long low, long high) {
   return {check, fmt::format("{}...{}", low, high)};
 }
 
-CLI::Validator cache_name() {
-  const auto check = [](const std::string& text) {
-    const bool other = text.ends_with(".mbtiles") || text.ends_with(".pmtiles");
-    return other ? text +
-                       " cannot be a cache, which is a GeoPackage; name a file that ends in .gpkg, and use terrella "
-                       "convert on it afterwards"
-                 : std::string();
-  };
-  return {check, ""};
-}
-
 std::string body_names() {
   std::string names;
   for (const Body& body : body_presets()) names += (names.empty() ? "" : ", ") + body.name;

@@ -19,9 +19,6 @@ namespace terrella {
 [[nodiscard]] CLI::Validator any_number();
 [[nodiscard]] CLI::Validator whole_number_in(long low, long high);
 
-/// Refuses names of MBTiles and PMTiles files for a cache.
-[[nodiscard]] CLI::Validator cache_name();
-
 /// Adds `--timeout`, seconds.
 void add_timeout_option(CLI::App& app, double& seconds, const char* help);
 

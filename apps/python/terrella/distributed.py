@@ -97,8 +97,11 @@ def plan_preload(source: _Path, *, output: _Path, parts: int, rate: float | None
     A finished plan that is run again asks the server for every tile again, although the output has them. To extend an
     output, plan only what is new, for example the levels that it lacks.
     Raises ValueError for parts outside 1 to 100,000, relative paths, less than 0.01 requests per second for each part,
-    and options that make no sense for a part.
+    outputs that cannot be extended (MBTiles, PMTiles), and options that make no sense for a part.
     """
+    if os.fspath(output).endswith((".mbtiles", ".pmtiles")):
+        raise ValueError(f"{os.fspath(output)}: a plan extends a cache; name one that ends in .gpkg, and merge it into "
+                         "this file afterwards")
     _refuse(options, "shard", "dry_run", "release", "times", "missing", "stored", "cache_size")
     if rate is not None and not rate >= _LEAST_RATE * parts:
         raise ValueError(f"rate {rate}: each of {parts} parts needs {_LEAST_RATE} requests per second; plan fewer parts")
