@@ -159,11 +159,11 @@ FilmFacts facts_of(const CLI::App& sub) {
 
 void add_film_options(CLI::App& sub, FilmCommand& film) {
   CLI::Option* flight =
-      sub.add_option(
-             "--flight", film.flight,
-             "Render a film of a flight: a GeoJSON LineString of eye positions and heights. -o names the frames "
-             "as frames/%05d.png, or a film.mp4, which takes the program ffmpeg. The same command goes on after "
-             "a kill, except with film.mp4")
+      sub.add_option("--flight", film.flight,
+                     "Render a film of a flight: a GeoJSON LineString of eye positions and heights, or the tours of a "
+                     "KML file. -o names the frames as frames/%05d.png, or a film.mp4, which takes the program ffmpeg. "
+                     "The same command goes on after "
+                     "a kill, except with film.mp4")
           ->type_name("F.geojson");
   sub.add_option("--fps", film.fps, "Set the frames per second of --flight")
       ->check(number_in(1.0, 240.0))

@@ -21,17 +21,6 @@ constexpr double kTurn = 360.0;
 constexpr std::size_t kMostDocuments = 20'000;
 constexpr int kMostFolders = 64;  // levels of elements whose visibility counts
 
-pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name) {
-  for (const pugi::xml_node& child : parent.children()) {
-    if (local_name(child) == name) return child;
-  }
-  return {};
-}
-
-std::string_view text_in(const pugi::xml_node& parent, std::string_view name) {
-  return trimmed(child_of(parent, name).child_value());
-}
-
 std::optional<double> number_in(const pugi::xml_node& parent, std::string_view name) {
   return read_number(text_in(parent, name));
 }

@@ -33,6 +33,17 @@ std::string_view local_name(const pugi::xml_node& node) {
   return name.substr(name.find(':') + 1);  // npos + 1 is 0
 }
 
+pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name) {
+  for (const pugi::xml_node& child : parent.children()) {
+    if (local_name(child) == name) return child;
+  }
+  return {};
+}
+
+std::string_view text_in(const pugi::xml_node& parent, std::string_view name) {
+  return trimmed(child_of(parent, name).child_value());
+}
+
 Result<std::string> read_by_gdal(const std::string& name) {
   VSILFILE* const file = gdal().VSIFOpenL(name.c_str(), "rb");
   if (file == nullptr) return Error{"it cannot be opened"};
