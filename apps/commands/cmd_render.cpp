@@ -21,6 +21,7 @@
 #include "apps/program/scene_picture.h"
 #include "apps/program/units_option.h"
 #include "base/hash_mix.h"
+#include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
@@ -192,7 +193,7 @@ void add_map_options(CLI::App& sub, MapCommand& map) {
 
 /// Options that a map takes. All others describe a view of the globe.
 void check_map_options(const CLI::App& sub) {
-  constexpr std::array kOfMaps = {"TILESET",      "--help",
+  constexpr std::array kOfMaps = {"tileset",      "--help",
                                   "--output",     "--extent",
                                   "--crs",        "--size",
                                   "--json",       "--layer",
@@ -221,7 +222,8 @@ int run_map_of(const CLI::App& sub, MapCommand& map, const RenderCommand& render
   check_map_options(sub);
   map.render = render;
   // The system is the map's; a picture that needs one is cut first.
-  map.crs = std::exchange(map.render.scene.base.place.crs, {});
+  const std::string said = std::exchange(map.render.scene.base.place.crs, {});
+  map.crs = stated_crs(said) ? *stated_crs(said) : said;
   if (const Status together = check_together(map); !together) {
     throw CLI::ValidationError("render", together.error().message);
   }

@@ -11,7 +11,6 @@
 #include "apps/process/console.h"
 #include "sky/almanac.h"
 #include "streaming/objects/vector/kml_file.h"
-#include "streaming/objects/vector/vector_file.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {

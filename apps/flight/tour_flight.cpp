@@ -10,7 +10,7 @@ namespace terrella {
 namespace {
 
 constexpr double kStraightDown_deg = -90.0;
-constexpr double kNearest_m = 0.1;
+constexpr double kLeastRange_m = 0.1;
 
 Camera camera_of(const KmlView& view) {
   Camera camera;
@@ -22,7 +22,7 @@ Camera camera_of(const KmlView& view) {
   const Orbit orbit{.pivot = ellipsoid.to_ecef(camera.eye),
                     .azimuth = camera.heading,
                     .depression = Angle::degrees(-camera.pitch.deg()),
-                    .distance_m = std::max(*view.range_m, kNearest_m)};
+                    .distance_m = std::max(*view.range_m, kLeastRange_m)};
   return orbit_camera(orbit, ellipsoid, camera.fov_y);
 }
 

@@ -29,7 +29,7 @@ namespace terrella {
 namespace {
 
 constexpr int kBlock_px = FlatMapLayer::kBlock_px;
-constexpr std::size_t kMostNamed = 16;
+constexpr std::size_t kMostOfMap = 16;
 
 /// A layer of the map with its look.
 struct MapLayer {
@@ -85,7 +85,7 @@ class MapDrawing {
 
   Image image;
   std::atomic<std::int64_t> lacked = 0;  ///< blocks of layers that could not be made
-  std::set<std::string> reasons{};       ///< why, at most kMostNamed
+  std::set<std::string> reasons{};       ///< why, at most kMostOfMap
   std::set<std::string> attributions{};  ///< of the layers that show
 
  private:
@@ -157,7 +157,7 @@ class MapDrawing {
   void note(const std::string& why) {
     ++lacked;
     const std::lock_guard lock(mutex_);
-    if (reasons.size() < kMostNamed) reasons.insert(why);
+    if (reasons.size() < kMostOfMap) reasons.insert(why);
   }
 
   const std::vector<MapLayer>& layers_;
@@ -188,7 +188,7 @@ Result<std::vector<MapLayer>> layers_of(const OpenedScene& scene, const FlatMap&
     // A layer of the night shows where a time puts it, and a map has none.
     if (!look || !look->shown || look->opacity == 0.0 || look->daylight == Daylight::night) continue;
     auto pixels = FlatMapLayer::open(layer.tiles, map, scene.body);
-    if (!pixels) return Error{"--crs: " + pixels.error().message};
+    if (!pixels) return Error{fmt::format("--crs {}: {}", in_quotes(map.crs), pixels.error().message)};
     MapLayer made{.pixels = *std::move(pixels), .look = *look};
     if (const auto& numbers = made.pixels->info().numbers) made.numbers = *numbers;
     layers.push_back(std::move(made));

@@ -125,7 +125,7 @@ Status check_system(const std::string& crs, const Body& body) {
   const auto its_body = parse_body(stated.empty() ? "earth" : stated);
   if (!its_body) return its_body.error();
   if (!are_two_bodies(*its_body, body)) return Done{};
-  return Error{"it is a system of another body (" + stated + ") than the globe's"};
+  return Error{"it is a system of another body (" + (stated.empty() ? "earth" : stated) + ") than the globe's"};
 }
 
 struct FlatMapLayer::Parts {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -64,10 +65,10 @@ TEST(Tour, LooksAtAPoint) {
   EXPECT_NEAR(glm::length(point - eye), 20000.0, 1e-3);
   // Seen from the point, the eye stands 30° over the horizon, towards 120°.
   const glm::dvec3 up = Ellipsoid::normal(Angle::degrees(46.5), Angle::degrees(8.0)).xyz;
-  EXPECT_NEAR(glm::dot(glm::normalize(eye - point), up), 0.5, 1e-9);
+  EXPECT_NEAR(glm::dot(glm::normalize(eye - point), up), 0.5, 1e-6);
   EXPECT_GT(seen.eye.lon.deg(), 8.1);
   EXPECT_LT(seen.eye.lat.deg(), 46.5);
-  EXPECT_NEAR(seen.heading.deg(), 300.0, 0.2);  // meridians converge by 0.15° on the way
+  EXPECT_NEAR(std::remainder(seen.heading.deg() - 300.0, 360.0), 0.0, 0.2);  // meridians converge by 0.15° on the way
 }
 
 /// Without an altitudeMode the point of a LookAt lies on the ground.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <pugixml.hpp>
 
@@ -28,20 +29,15 @@ std::string document_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
+bool is_kml_name(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".kml" || ending == ".kmz";
+}
+
 std::string_view local_name(const pugi::xml_node& node) {
   const std::string_view name = node.name();
   return name.substr(name.find(':') + 1);  // npos + 1 is 0
-}
-
-pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name) {
-  for (const pugi::xml_node& child : parent.children()) {
-    if (local_name(child) == name) return child;
-  }
-  return {};
-}
-
-std::string_view text_in(const pugi::xml_node& parent, std::string_view name) {
-  return trimmed(child_of(parent, name).child_value());
 }
 
 Result<std::string> read_by_gdal(const std::string& name) {

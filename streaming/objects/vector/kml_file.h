@@ -15,13 +15,11 @@ class xml_node;
 
 namespace terrella {
 
+/// True for the name of a KML or KMZ file. thread: any
+[[nodiscard]] bool is_kml_name(const std::filesystem::path& path);
+
 /// Name of an element without the prefix of its namespace.
 [[nodiscard]] std::string_view local_name(const pugi::xml_node& node);
-
-/// The first child element of a name without prefix; empty if there is none.
-[[nodiscard]] pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name);
-/// The text of such a child, without the blanks around it.
-[[nodiscard]] std::string_view text_in(const pugi::xml_node& parent, std::string_view name);
 
 /// Reads a file by GDAL's name of it, at most kMaxVectorUnpackedBytes. GDAL is loaded. The error does not name the
 /// file. Blocks. thread: any

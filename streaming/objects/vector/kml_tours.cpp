@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/number.h"
+#include "streaming/remote/wmts/xml_names.h"
 
 namespace terrella {
 namespace {
@@ -22,7 +23,7 @@ struct ViewRange {
 
 /// Reads a number among the children of an element.
 Result<double> number_of(const pugi::xml_node& parent, const ViewRange& range) {
-  const std::string_view text = text_in(parent, range.name);
+  const std::string_view text = text_of(parent, range.name);
   if (text.empty()) return range.otherwise;
   const auto number = read_number(text);
   if (number && *number >= range.low && *number <= range.high) return *number;
@@ -30,7 +31,7 @@ Result<double> number_of(const pugi::xml_node& parent, const ViewRange& range) {
 }
 
 Result<std::optional<UtcTime>> instant_of(const pugi::xml_node& view) {
-  const std::string_view when = text_in(child_of(view, "TimeStamp"), "when");
+  const std::string_view when = text_of(child_of(view, "TimeStamp"), "when");
   if (when.empty()) return std::optional<UtcTime>();
   const auto time = parse_utc(when);
   if (!time) return Error{"its TimeStamp: " + time.error().message};
@@ -58,7 +59,7 @@ Result<KmlView> view_of(const pugi::xml_node& node) {
   }
   if (looks_at) {
     view.range_m = range_m;
-    const std::string_view mode = text_in(node, "altitudeMode");
+    const std::string_view mode = text_of(node, "altitudeMode");
     if (mode.empty() || mode.starts_with("clampTo")) view.height_m = 0.0;
   }
   const auto instant = instant_of(node);
@@ -72,7 +73,7 @@ class TourWalk : public pugi::xml_tree_walker {
  public:
   bool for_each(pugi::xml_node& node) override {
     if (local_name(node) != "Tour") return true;
-    KmlTour tour{.name = std::string(text_in(node, "name")), .views = {}};
+    KmlTour tour{.name = std::string(text_of(node, "name")), .views = {}};
     fault_ = read(child_of(node, "Playlist"), tour);
     if (!fault_) {
       fault_ = Error{fmt::format("its tour {}: {}", in_quotes(tour.name), fault_.error().message)};
@@ -123,7 +124,7 @@ class TourWalk : public pugi::xml_tree_walker {
     }
     const auto view = view_of(node);
     if (!view) return Error{fmt::format("view {}: {}", tour.views.size() + 1, view.error().message)};
-    if (read_number(text_in(node, "roll")).value_or(0.0) != 0.0) complain("roll of views is left out");
+    if (read_number(text_of(node, "roll")).value_or(0.0) != 0.0) complain("roll of views is left out");
     const bool first = tour.views.empty();
     if (!first) time_s += duration_s;
     tour.views.push_back({.view = *view, .time_s = time_s, .jumps = !first && duration_s == 0.0});
