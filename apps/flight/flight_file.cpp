@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "apps/flight/tour_flight.h"
-#include "apps/process/console.h"
 #include "sky/almanac.h"
 #include "streaming/objects/vector/kml_file.h"
 #include "streaming/preload/geojson_text.h"
@@ -239,8 +238,11 @@ Result<FlightFile> read_tour_file(const std::filesystem::path& path) {
   if (read->tours.empty()) {
     return Error{path.string() + ": it has no tour; a flight is a gx:Tour of a KML file, or a GeoJSON LineString"};
   }
-  for (const std::string& complaint : read->complaints) print_message("{}: {}\n", path.string(), one_line(complaint));
-  return FlightFile{flights_of(read->tours), *std::move(text)};
+  FlightFile flight{flights_of(read->tours), *std::move(text)};
+  for (const std::string& what : read->complaints) {
+    flight.complaints.push_back(fmt::format("{}: {}", path.string(), what));
+  }
+  return flight;
 }
 
 }  // namespace

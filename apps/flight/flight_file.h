@@ -25,9 +25,9 @@ namespace terrella {
 struct FlightFile {
   std::vector<FlightPath> paths;
   std::string text;
+  std::vector<std::string> complaints{};  ///< parts of a tour that a flight has not; each names the file
 };
-/// Reads a GeoJSON file, or the tours (gx:Tour) of a KML or KMZ file. Prints a message on what a tour has that a flight
-/// has not. The error names the file. Blocks. thread: any
+/// Reads a GeoJSON file, or the tours (gx:Tour) of a KML or KMZ file. The error names the file. Blocks. thread: any
 [[nodiscard]] Result<FlightFile> read_flight(const std::filesystem::path& path);
 
 }  // namespace terrella

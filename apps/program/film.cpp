@@ -201,6 +201,7 @@ int run_film(const FilmCommand& command) {
   const auto begun = std::chrono::steady_clock::now();
   auto flight = read_flight(command.flight);
   if (!flight) return fail("render", flight.error().message);
+  for (const std::string& complaint : flight->complaints) print_message("{}\n", one_line(complaint));
   auto plan = FilmPlan::make(std::move(flight->paths), command.fps);
   if (!plan) return fail("render", command.flight + ": " + plan.error().message);
   std::error_code unknown;

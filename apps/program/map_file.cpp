@@ -85,8 +85,8 @@ class MapDrawing {
 
   Image image;
   std::atomic<std::int64_t> lacked = 0;  ///< blocks of layers that could not be made
-  std::set<std::string> reasons{};       ///< why, at most kMostOfMap
-  std::set<std::string> attributions{};  ///< of the layers that show
+  std::set<std::string> reasons{};       ///< reasons of those, at most kMostOfMap
+  std::set<std::string> attributions{};  ///< attributions of the layers that show
 
  private:
   using Colours = std::vector<Colour>;
@@ -157,7 +157,8 @@ class MapDrawing {
   void note(const std::string& why) {
     ++lacked;
     const std::lock_guard lock(mutex_);
-    if (reasons.size() < kMostOfMap) reasons.insert(why);
+    const bool late = std::chrono::steady_clock::now() >= deadline_;
+    if (reasons.size() < kMostOfMap) reasons.insert(why + (late ? "; --timeout gives servers longer" : ""));
   }
 
   const std::vector<MapLayer>& layers_;

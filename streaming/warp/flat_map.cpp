@@ -37,7 +37,7 @@ RasterInfo raster_of(const FlatMap& map) {
 
 /// Degrees of the ground in a pixel of a map, no less than they are nearly anywhere on it.
 double pixel_deg_of(const FlatMap& map, const CrsFacts& crs) {
-  constexpr double kMostStretch = 2.0;  // of a pixel against the unit of its system
+  constexpr double kMostStretch = 2.0;  // a pixel against the unit of its system
   const double degree_m = crs.a_m * std::numbers::pi / 180.0;
   return kMostStretch * map.unit_per_px * (crs.geographic ? crs.unit_deg : crs.unit_m / degree_m);
 }
@@ -48,7 +48,7 @@ struct SourceGrid {
   Ellipsoid figure;
   Affine to_row_places;  ///< from pixels of the finest level to longitudes and row latitudes, degrees
   int block_px = FlatMapLayer::kBlock_px;
-  double pixel_deg = 0.0;  ///< of the map
+  double pixel_deg = 0.0;  ///< pixels of the map
 
   [[nodiscard]] CrsPoint pixel_of(const RowPlace& place) const {
     if (!std::isfinite(place.lon_deg) || !std::isfinite(place.row_deg)) return kNoPixel;
@@ -161,7 +161,7 @@ Result<EncodedTile, TileFailure> FlatMapLayer::Parts::recipe_of(const TileId& bl
   fetcher->tiles().fetch(block, 0.0, [promise](Answer come) { promise->set_value(std::move(come)); });
   if (answer.wait_until(deadline) == std::future_status::ready) return answer.get();
   fetcher->tiles().cancel(block);
-  return TileFailure{MissingKind::failed, "no answer in time; --timeout gives it longer"};
+  return TileFailure{MissingKind::failed, "no answer in time"};
 }
 
 FlatMapLayer::FlatMapLayer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

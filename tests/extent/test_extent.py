@@ -14,7 +14,7 @@ from program import DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
 gdal.UseExceptions()
 osr.DontUseExceptions()  # places beyond a projection are infinite
 
-# What the acceptance of the maps allows.
+# Limits of a map's place and colour.
 OFF_PX = 0.05
 RMS = 0.5
 # Maps in four projections, two of them over a pole and over ±180°, one across the whole planet; and the waves' length

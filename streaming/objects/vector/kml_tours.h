@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostTourViews = 100'000;
 
 /// A Camera or LookAt of KML. Angles are in degrees; heights count from the ellipsoid.
 struct KmlView {
-  double lon_deg = 0.0, lat_deg = 0.0;  ///< of the eye, or of the point that it looks at
+  double lon_deg = 0.0, lat_deg = 0.0;  ///< place of the eye, or of the point that it looks at
   double height_m = 0.0;                ///< the same point's
   double heading_deg = 0.0;
   double tilt_deg = 0.0;             ///< 0 looks straight down, 90 to the horizon
