@@ -90,9 +90,9 @@ class Flyer {
 
   void fly(const std::string& name, Report& report) {
     options_.progress(name);
-    const auto paths = read_flight(data_file("flights/" + name + ".geojson"));
-    if (!paths) throw std::runtime_error(paths.error().message);
-    const std::vector<Camera> cameras = cameras_of(*paths, effort_.frames);
+    const auto flight = read_flight(data_file("flights/" + name + ".geojson"));
+    if (!flight) throw std::runtime_error(flight.error().message);
+    const std::vector<Camera> cameras = cameras_of(flight->paths, effort_.frames);
     auto source = std::make_shared<CountingSource>(make_endless_source());
     const std::unique_ptr<Globe> globe = open(source, false);
     const std::unique_ptr<Globe> patient = open(std::make_shared<CountingSource>(make_endless_source()), true);

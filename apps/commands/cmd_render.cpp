@@ -9,6 +9,7 @@
 
 #include "apps/open_scene/open_rasters.h"
 #include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/options/shard_option.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
@@ -16,14 +17,17 @@
 #include "apps/process/write_picture.h"
 #include "apps/program/commands.h"
 #include "apps/program/film.h"
+#include "apps/program/map_file.h"
 #include "apps/program/scene_picture.h"
 #include "apps/program/units_option.h"
 #include "base/hash_mix.h"
+#include "streaming/georeference/crs_text.h"
 
 namespace terrella {
 namespace {
 
 constexpr std::size_t kMostNamed = 16;
+constexpr const char* kPictureName = "picture name";  ///< name of the validator of --output
 void report(const RenderCommand& command, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
   const int got = stats.tiles_wanted - stats.tiles_missing - stats.tiles_pending;
@@ -52,17 +56,6 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   if (heights_without(stats) > 0) {
     print_result("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
   }
-}
-
-std::vector<std::string> inputs_of(const SceneOptions& scene) {
-  std::vector<std::string> inputs = {scene.objects, scene.project};
-  for (const Url* url : {&scene.base.address, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
-    inputs.push_back(url->with_secrets());
-  }
-  for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
-  for (const LayerOption& layer : scene.layers) inputs.push_back(layer.source.address.with_secrets());
-  for (const ObjectsOption& objects : scene.object_layers) inputs.push_back(objects.file);
-  return inputs;
 }
 
 /// Draws and writes the picture.
@@ -118,10 +111,12 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
   sub.add_option("-o,--output", command.output,
                  fmt::format("Write this file: a JPEG of quality {} if the name ends in .jpg or .jpeg, else a PNG",
                              kWrittenJpegQuality))
-      ->check([](const std::string& name) {
-        const Status named = check_picture_name(name);
-        return named ? std::string() : named.error().message;
-      });
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const Status named = check_picture_name(name);
+            return named ? std::string() : named.error().message;
+          },
+          "", kPictureName));
   sub.get_option("--map")->default_str("off, or on with --places");
   sub.get_option("--night")->needs(sub.get_option("--time"));  // without a time the whole globe is in daylight
   add_timeout_option(sub, command.scene.base.timeout_s,
@@ -136,7 +131,8 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
   sub.footer(
       "Examples:\n"
       "  terrella render -o earth.png --size 1024x1024 --camera 46,7,3000000,0,-60\n"
-      "  terrella render -o frames/%05d.png --size 1920x1080 --flight alps.geojson --fps 25");
+      "  terrella render -o frames/%05d.png --size 1920x1080 --flight alps.geojson --fps 25\n"
+      "  terrella render -o arctic.tif --size 2048x2048 --extent=-4e6,-4e6,4e6,4e6 --crs EPSG:3413");
   return sub;
 }
 
@@ -164,11 +160,11 @@ FilmFacts facts_of(const CLI::App& sub) {
 
 void add_film_options(CLI::App& sub, FilmCommand& film) {
   CLI::Option* flight =
-      sub.add_option(
-             "--flight", film.flight,
-             "Render a film of a flight: a GeoJSON LineString of eye positions and heights. -o names the frames "
-             "as frames/%05d.png, or a film.mp4, which takes the program ffmpeg. The same command goes on after "
-             "a kill, except with film.mp4")
+      sub.add_option("--flight", film.flight,
+                     "Render a film of a flight: a GeoJSON LineString of eye positions and heights, or the tours of a "
+                     "KML file. -o names the frames as frames/%05d.png, or a film.mp4, which takes the program ffmpeg. "
+                     "The same command goes on after "
+                     "a kill, except with film.mp4")
           ->type_name("F.geojson");
   sub.add_option("--fps", film.fps, "Set the frames per second of --flight")
       ->check(number_in(1.0, 240.0))
@@ -183,8 +179,63 @@ void add_film_options(CLI::App& sub, FilmCommand& film) {
       ->needs(flight);
 }
 
-/// Renders a film or a picture, as the command says.
-int run_render_or_film(const CLI::App& sub, FilmCommand& film) {
+void add_map_options(CLI::App& sub, MapCommand& map) {
+  CLI::Option* extent =
+      sub.add_option_function<std::string>(
+             "--extent",
+             [&map](const std::string& text) { map.extent = parsed_or_throw("--extent", parse_bounds(text)); },
+             "Write a map of this extent as a GeoTIFF, in the system and the units of --crs, easting "
+             "first. --size is the most that its sides have; its pixels are square. Images and "
+             "numbers are drawn, without light, relief and objects")
+          ->type_name("W,S,E,N");
+  extent->needs(sub.get_option("--crs"));
+}
+
+/// Options that a map takes. All others describe a view of the globe.
+void check_map_options(const CLI::App& sub) {
+  constexpr std::array kOfMaps = {"tileset",      "--help",
+                                  "--output",     "--extent",
+                                  "--crs",        "--size",
+                                  "--json",       "--layer",
+                                  "--matrix-set", "--style",
+                                  "--layer-time", "--layer-times",
+                                  "--root-span",  "--tile-size",
+                                  "--max-level",  "--header",
+                                  "--timeout",    "--projection",
+                                  "--latitude",   "--body",
+                                  "--overlay",    "--overlay-projection",
+                                  "--cache",      "--cache-size",
+                                  "--memory",     "--offline",
+                                  "--west",       "--nodata",
+                                  "--stretch",    "--colormap",
+                                  "--band",       "--bands",
+                                  "--unlit"};
+  for (const CLI::Option* option : sub.get_options()) {
+    if (option->count() == 0 || std::ranges::find(kOfMaps, option->get_name()) != kOfMaps.end()) continue;
+    throw CLI::ValidationError("render", fmt::format("--extent and {}: a map shows images and numbers as they are; "
+                                                     "leave out {}",
+                                                     option->get_name(), option->get_name()));
+  }
+}
+
+int run_map_of(const CLI::App& sub, MapCommand& map, const RenderCommand& render) {
+  check_map_options(sub);
+  map.render = render;
+  // The system is the map's; a picture that needs one is cut first.
+  const std::string said = std::exchange(map.render.scene.base.place.crs, {});
+  map.crs = stated_crs(said) ? *stated_crs(said) : said;
+  if (const Status together = check_together(map); !together) {
+    throw CLI::ValidationError("render", together.error().message);
+  }
+  return run_map(map);
+}
+
+/// Renders a film, a map or a picture, as the command says.
+int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand& map) {
+  if (sub.count("--extent") > 0) return run_map_of(sub, map, film.render);
+  if (const Status named = check_picture_name(film.render.output); !named) {
+    throw CLI::ValidationError("--output", named.error().message + ", or with --extent a map as .tif");
+  }
   if (film.flight.empty()) return run_render(film.render, nullptr);
   if (sub.count("--camera") > 0) {
     throw CLI::ValidationError("render", "--flight and --camera: the flight sets the view; leave out --camera");
@@ -198,10 +249,12 @@ int run_render_or_film(const CLI::App& sub, FilmCommand& film) {
 
 CLI::App& add_render_and_film(CLI::App& app, int& exit_code) {
   const auto film = std::make_shared<FilmCommand>();
+  const auto map = std::make_shared<MapCommand>();
   CLI::App& sub = add_render_options(app, film->render);
   add_film_options(sub, *film);
-  sub.get_option("--output")->required();
-  sub.callback([film, &sub, &exit_code] { exit_code = run_render_or_film(sub, *film); });
+  add_map_options(sub, *map);
+  sub.get_option("--output")->required()->get_validator(kPictureName)->active(false);
+  sub.callback([film, map, &sub, &exit_code] { exit_code = run_as_said(sub, *film, *map); });
   return sub;
 }
 

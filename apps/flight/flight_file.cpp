@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "apps/flight/tour_flight.h"
 #include "sky/almanac.h"
+#include "streaming/objects/vector/kml_file.h"
 #include "streaming/preload/geojson_text.h"
 
 namespace terrella {
@@ -224,10 +226,34 @@ Result<std::vector<FlightPath>> parse_flight(std::string_view text, const std::s
   return paths;
 }
 
-Result<std::vector<FlightPath>> read_flight(const std::filesystem::path& path) {
-  const auto text = read_geojson_text(path);
+namespace {
+
+Result<FlightFile> read_tour_file(const std::filesystem::path& path) {
+  const auto file = KmlFile::open(path);
+  if (!file) return file.error();
+  auto text = file->read(file->document());
+  if (!text) return Error{path.string() + ": " + text.error().message};
+  const auto read = read_tours(*text);
+  if (!read) return Error{path.string() + ": " + read.error().message};
+  if (read->tours.empty()) {
+    return Error{path.string() + ": it has no tour; a flight is a gx:Tour of a KML file, or a GeoJSON LineString"};
+  }
+  FlightFile flight{flights_of(read->tours), *std::move(text)};
+  for (const std::string& what : read->complaints) {
+    flight.complaints.push_back(fmt::format("{}: {}", path.string(), what));
+  }
+  return flight;
+}
+
+}  // namespace
+
+Result<FlightFile> read_flight(const std::filesystem::path& path) {
+  if (is_kml_name(path)) return read_tour_file(path);
+  auto text = read_geojson_text(path);
   if (!text) return text.error();
-  return parse_flight(*text, path.string());
+  auto paths = parse_flight(*text, path.string());
+  if (!paths) return paths.error();
+  return FlightFile{*std::move(paths), *std::move(text)};
 }
 
 }  // namespace terrella

@@ -20,6 +20,14 @@ namespace terrella {
 ///   By default the pace is even_pace().
 /// The error begins with `where`. thread: any
 [[nodiscard]] Result<std::vector<FlightPath>> parse_flight(std::string_view text, const std::string& where);
-[[nodiscard]] Result<std::vector<FlightPath>> read_flight(const std::filesystem::path& path);
+
+/// The flights of a file, and the text that they are read from.
+struct FlightFile {
+  std::vector<FlightPath> paths;
+  std::string text;
+  std::vector<std::string> complaints{};  ///< parts of a tour that a flight has not; each names the file
+};
+/// Reads a GeoJSON file, or the tours (gx:Tour) of a KML or KMZ file. The error names the file. Blocks. thread: any
+[[nodiscard]] Result<FlightFile> read_flight(const std::filesystem::path& path);
 
 }  // namespace terrella

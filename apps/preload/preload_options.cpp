@@ -71,7 +71,7 @@ void add_area_options(CLI::App& app, PreloadCommand& command) {
   app.add_option(
          "--flight", command.flight,
          "Load the tiles that the viewer would request along a flight: a GeoJSON LineString of eye positions and "
-         "heights")
+         "heights, or the tours of a KML file")
       ->type_name("F.geojson");
   app.add_option_function<std::string>(
          "--size", [&command](const std::string& text) { command.size = parsed_or_throw("--size", parse_size(text)); },

@@ -65,9 +65,9 @@ Result<std::vector<TileId>> tiles_flown_over(const std::vector<FlightPath>& path
 
 Result<std::shared_ptr<const TilePlan>> plan_of_flight(const PreloadCommand& command, const TileSetInfo& info,
                                                        const Body& body, const LevelRange& levels) {
-  auto path = read_flight(command.flight);
-  if (!path) return path.error();
-  auto tiles = tiles_flown_over(*path, body, command.size, info);
+  const auto flight = read_flight(command.flight);
+  if (!flight) return flight.error();
+  auto tiles = tiles_flown_over(flight->paths, body, command.size, info);
   if (!tiles) return tiles.error();
   std::erase_if(*tiles, [&](const TileId& id) { return id.level < levels.first || id.level > levels.last; });
   return std::shared_ptr<const TilePlan>(plan_list(*std::move(tiles)));

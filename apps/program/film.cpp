@@ -18,7 +18,6 @@
 #include "apps/process/stop_signals.h"
 #include "apps/program/commands.h"
 #include "base/hash_mix.h"
-#include "streaming/preload/geojson_text.h"
 
 namespace terrella {
 namespace {
@@ -200,11 +199,10 @@ Status check_together(const FilmCommand& command) {
 int run_film(const FilmCommand& command) {
   const StopSignals signals;
   const auto begun = std::chrono::steady_clock::now();
-  const auto text = read_geojson_text(command.flight);
-  if (!text) return fail("render", text.error().message);
-  auto paths = parse_flight(*text, command.flight);
-  if (!paths) return fail("render", paths.error().message);
-  auto plan = FilmPlan::make(*std::move(paths), command.fps);
+  auto flight = read_flight(command.flight);
+  if (!flight) return fail("render", flight.error().message);
+  for (const std::string& complaint : flight->complaints) print_message("{}\n", one_line(complaint));
+  auto plan = FilmPlan::make(std::move(flight->paths), command.fps);
   if (!plan) return fail("render", command.flight + ": " + plan.error().message);
   std::error_code unknown;
   if (is_movie_name(command.render.output) && !command.force &&
@@ -212,7 +210,7 @@ int run_film(const FilmCommand& command) {
     return fail("render", command.render.output + ": is there already; --force replaces it, or name another film");
   }
   Film film(command, *std::move(plan));
-  if (const Status opened = film.open(*text); !opened) return fail("render", opened.error().message);
+  if (const Status opened = film.open(flight->text); !opened) return fail("render", opened.error().message);
   const Status rendered = film.render();
   if (!rendered) return fail("render", rendered.error().message);
   report(command, film, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());

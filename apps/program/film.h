@@ -12,7 +12,7 @@ namespace terrella {
 /// Options of `terrella render --flight`.
 struct FilmCommand {
   RenderCommand render;  ///< `output` is a pattern of file names or a *.mp4
-  std::string flight;    ///< GeoJSON, see parse_flight()
+  std::string flight;    ///< GeoJSON or KML, see read_flight()
   double fps = 30.0;
   std::optional<Shard> shard;  ///< frames whose number leaves the rest `index` - 1 when divided by `count`
   bool force = false;          ///< replace frames of another film

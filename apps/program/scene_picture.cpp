@@ -13,7 +13,6 @@
 
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
-#include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/scene_objects.h"
 #include "apps/process/console.h"
 #include "apps/process/process.h"
@@ -201,6 +200,17 @@ Status ScenePicture::Parts::add_drawings() {
   return added ? Status(Done{}) : added.error();
 }
 
+std::vector<std::string> inputs_of(const SceneOptions& scene) {
+  std::vector<std::string> inputs = {scene.objects, scene.project};
+  for (const Url* url : {&scene.base.address, &scene.elevation, &scene.night, &scene.clouds.tile_set}) {
+    inputs.push_back(url->with_secrets());
+  }
+  for (const OverlayOption& overlay : scene.overlays) inputs.push_back(overlay.tile_set.with_secrets());
+  for (const LayerOption& layer : scene.layers) inputs.push_back(layer.source.address.with_secrets());
+  for (const ObjectsOption& objects : scene.object_layers) inputs.push_back(objects.file);
+  return inputs;
+}
+
 std::string name_of(const MissingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
 }
@@ -227,6 +237,7 @@ Result<std::unique_ptr<ScenePicture>> ScenePicture::open(const RenderCommand& co
 }
 
 Globe& ScenePicture::globe() { return *parts_->scene.globe; }
+const OpenedScene& ScenePicture::scene() const { return parts_->scene; }
 
 Result<LayerId> ScenePicture::add(const OverlayOption& overlay) {
   auto added = add_overlay(globe(), parts_->command.scene, overlay);

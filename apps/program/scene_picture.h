@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/open_scene/open_scene.h"
 #include "apps/open_scene/options/scene_options.h"
 #include "apps/viewer/panels/readout.h"
 #include "base/result.h"
@@ -27,6 +28,9 @@ struct RenderCommand {
   LengthUnits units = LengthUnits::metric;  ///< units of the scale bar
   bool more_objects = false;                ///< objects with labels may be added to the globe later
 };
+
+/// The files, folders and addresses that a scene is drawn from; some are empty. thread: any
+[[nodiscard]] std::vector<std::string> inputs_of(const SceneOptions& scene);
 
 /// A picture and the facts of its making.
 struct Rendered {
@@ -54,6 +58,7 @@ class ScenePicture {
   ScenePicture& operator=(const ScenePicture&) = delete;
 
   [[nodiscard]] Globe& globe();
+  [[nodiscard]] const OpenedScene& scene() const;
   [[nodiscard]] Result<LayerId> add(const OverlayOption& overlay);  ///< on top; see add_overlay()
   /// Forgets the clusters and shown features of a layer whose objects were replaced.
   void forget_features(LayerId layer);

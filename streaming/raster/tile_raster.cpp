@@ -1,6 +1,5 @@
 #include "streaming/raster/tile_raster.h"
 
-#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -19,8 +18,10 @@ std::int64_t pixels_over(double extent_deg, double pixel_deg) {
 constexpr double kMercatorHalf_m = std::numbers::pi * 6378137.0;
 
 CrsSquare square_of(const TileSetInfo& info) {
-  assert(info.square || info.grid.projection == Projection::web_mercator);
-  if (info.square) return *info.square;
+  if (info.grid.projection == Projection::projected) return info.square.value_or(CrsSquare{});
+  if (info.grid.projection != Projection::web_mercator) {
+    return {.crs = {}, .west = info.grid.west_deg, .north = info.grid.north_deg};
+  }
   return {
       .crs = "EPSG:3857", .west = -kMercatorHalf_m, .north = kMercatorHalf_m, .unit_per_deg = kMercatorHalf_m / 180.0};
 }
@@ -44,8 +45,9 @@ RasterLevel level_of(const TileGrid& grid, const CrsSquare& square, int level) {
   const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
   const double pixel = pixel_deg * square.unit_per_deg;
   const RowLatitudes rows = row_bounds(grid);
-  return {.width_px = pixels_over(grid.bounds.east.deg() + 180.0, pixel_deg),
-          .height_px = pixels_over(180.0 - rows.south_deg, pixel_deg),
+  const bool crosses = grid.bounds.east.deg() <= grid.bounds.west.deg();
+  return {.width_px = pixels_over((crosses ? 180.0 : grid.bounds.east.deg()) - grid.west_deg, pixel_deg),
+          .height_px = pixels_over(top_row_deg(grid) - rows.south_deg, pixel_deg),
           .block_width_px = grid.tile_px,
           .block_height_px = grid.tile_px,
           .to_crs = {.x0 = square.west,
@@ -76,7 +78,7 @@ namespace {
 
 class TileRaster : public RasterSource, public RemoteTiles {
  public:
-  explicit TileRaster(std::unique_ptr<TileSource> stored)
+  explicit TileRaster(std::shared_ptr<TileSource> stored)
       : stored_(std::move(stored)), info_(raster_info_of(stored_->info())) {}
 
   [[nodiscard]] const RasterInfo& info() const override { return info_; }
@@ -101,13 +103,13 @@ class TileRaster : public RasterSource, public RemoteTiles {
     return {.level = block.level + stored_->info().grid.min_level, .x = block.x, .y = block.y};
   }
 
-  const std::unique_ptr<TileSource> stored_;
+  const std::shared_ptr<TileSource> stored_;
   const RasterInfo info_;
 };
 
 }  // namespace
 
-std::unique_ptr<RasterSource> raster_of_tiles(std::unique_ptr<TileSource> stored) {
+std::unique_ptr<RasterSource> raster_of_tiles(std::shared_ptr<TileSource> stored) {
   return std::make_unique<TileRaster>(std::move(stored));
 }
 

@@ -30,19 +30,14 @@ struct PatchScale {
   double under;  ///< source pixels under the patch
 };
 
-PatchScale scale_of(const Patch& patch, const TileGrid& grid, const TileBounds& bounds) {
-  Jacobian j = patch.jacobian(0.0, 0.0);
-  const double under = std::abs(j.determinant());
-  const double row =
-      bounds.north_deg - 0.5 * (patch.y0 + patch.y1) * (bounds.north_deg - bounds.south_deg) / grid.tile_px;
-  const double cosine = std::max(std::cos(row * std::numbers::pi / 180.0), 1e-3);
-  j.u_x /= cosine;
-  j.v_x /= cosine;
+PatchScale scale_of(const Patch& patch, const PixelMap& tile) {
+  const Jacobian raw = patch.jacobian(0.0, 0.0);
+  const auto [j, ground] = tile.on_ground(raw, 0.5 * (patch.x0 + patch.x1), 0.5 * (patch.y0 + patch.y1));
   const double square = j.u_x * j.u_x + j.u_y * j.u_y + j.v_x * j.v_x + j.v_y * j.v_y;
   const double det = std::abs(j.determinant());
   const double longest = 0.5 * (square + std::sqrt(std::max(square * square - 4.0 * det * det, 0.0)));
   const double area = static_cast<double>(patch.x1 - patch.x0) * (patch.y1 - patch.y0);
-  return {longest > 0.0 ? det / std::sqrt(longest) : 0.0, area * cosine, area * under};
+  return {longest > 0.0 ? det / std::sqrt(longest) : 0.0, area * ground, area * std::abs(raw.determinant())};
 }
 
 /// True if the tile's pixels are those of a level.
@@ -59,12 +54,11 @@ bool are_copies(const std::vector<Patch>& patches, const WarpLevel& level) {
 }
 
 /// `finer_by` is the factor by which the level is to be finer than the tile.
-int level_for(const WarpFrame& frame, const TileId& id, const std::vector<Patch>& patches, double finer_by) {
-  const TileBounds bounds = tile_bounds(frame.grid, id);
+int level_for(const WarpFrame& frame, const PixelMap& tile, const std::vector<Patch>& patches, double finer_by) {
   std::vector<PatchScale> scales;
   double weight = 0.0, under = 0.0;
   for (const Patch& patch : patches) {
-    scales.push_back(scale_of(patch, frame.grid, bounds));
+    scales.push_back(scale_of(patch, tile));
     weight += scales.back().weight;
     under += scales.back().under;
   }
@@ -72,7 +66,7 @@ int level_for(const WarpFrame& frame, const TileId& id, const std::vector<Patch>
   double passed = 0.0;
   const auto needed = std::ranges::find_if(
       scales, [&](const PatchScale& scale) { return (passed += scale.weight) >= kCoarsePart * weight; });
-  const double most = kMostUnder * frame.grid.tile_px * frame.grid.tile_px;
+  const double most = kMostUnder * tile.tile_px * tile.tile_px;
   int level = 0;
   for (int i = 1; i < static_cast<int>(frame.levels.size()); ++i) {
     const double size = frame.levels[static_cast<std::size_t>(i - 1)].pixel_size;
@@ -200,25 +194,15 @@ class Planner {
   std::set<TileId> reached_, core_;
 };
 
-/// Rows of a tile north of the south pole; a row of which the pole cuts off a part counts.
-int rows_on_planet(const TileGrid& grid, const TileId& id) {
-  const TileBounds bounds = tile_bounds(grid, id);
-  const double row_deg = tile_span_deg(grid, id.level) / grid.tile_px;
-  constexpr double kRounding_px = 1e-6;
-  return static_cast<int>(
-      std::clamp(std::ceil((bounds.north_deg + 90.0) / row_deg - kRounding_px), 0.0, double(grid.tile_px)));
-}
-
 }  // namespace
 
-WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id) {
-  WarpPlan plan{
-      .tile_px = frame.grid.tile_px, .rows = rows_on_planet(frame.grid, id), .pieces = {}, .lines = {}, .chunks = {}};
-  std::vector<Patch> patches = tile_patches(map, frame.levels.back().area, frame.grid, id);
+WarpPlan plan_tile(const PixelMap& tile, const WarpFrame& frame) {
+  WarpPlan plan{.tile_px = tile.tile_px, .rows = tile.rows, .pieces = {}, .lines = {}, .chunks = {}};
+  std::vector<Patch> patches = tile_patches(tile, frame.levels.back().area);
   if (patches.empty()) return plan;
-  plan.level = level_for(frame, id, patches, 1.0);
+  plan.level = level_for(frame, tile, patches, 1.0);
   if (frame.detail == Detail::full && !are_copies(patches, frame.levels[static_cast<std::size_t>(plan.level)])) {
-    plan.level = level_for(frame, id, patches, std::numbers::sqrt2);
+    plan.level = level_for(frame, tile, patches, std::numbers::sqrt2);
   }
   const Affine& from_finest = frame.levels[static_cast<std::size_t>(plan.level)].from_finest;
   for (Patch& patch : patches) patch = patch.in(from_finest);

@@ -15,9 +15,8 @@ namespace terrella {
 /// copies.
 enum class Detail { usual, full };
 
-/// A raster and the grid of the tiles that are made of it.
+/// A raster of which tiles are made.
 struct WarpFrame {
-  TileGrid grid;
   std::vector<WarpLevel> levels;
   Detail detail = Detail::usual;
 };
@@ -54,6 +53,6 @@ struct WarpPlan {
 /// The level is the coarsest whose pixels are no larger than the tile's, both measured along the meridian, in three
 /// quarters of the tile, or a finer one (Detail). Tiles near the poles have more columns than a view needs, so that
 /// columns do not count. thread: one at a time for a map
-[[nodiscard]] WarpPlan plan_tile(const GroundMap& map, const WarpFrame& frame, const TileId& id);
+[[nodiscard]] WarpPlan plan_tile(const PixelMap& tile, const WarpFrame& frame);
 
 }  // namespace terrella

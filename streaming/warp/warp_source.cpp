@@ -170,61 +170,35 @@ Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> ra
   return make_warp_source(std::move(raster), *std::move(planner), std::move(info), {}, options.decoded_bytes);
 }
 
-TilePlanner::TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
+TilePlanner::TilePlanner(const RasterInfo& raster, std::shared_ptr<GroundMaps> maps, const TileGrid& grid,
                          Overviews overviews, Detail detail)
-    : raster_(raster),
-      figure_(figure),
-      frame_{.grid = grid, .levels = warp_levels(raster, map.turn_px(), grid.tile_px, overviews), .detail = detail} {
-  idle_.push_back(std::move(map));
-}
+    : maps_(std::move(maps)),
+      grid_(grid),
+      frame_{.levels = warp_levels(raster, maps_->turn_px(), grid.tile_px, overviews), .detail = detail} {}
 
 Result<std::shared_ptr<TilePlanner>> TilePlanner::open(const RasterInfo& raster, const WarpFigure& figure,
                                                        const TileGrid& grid, Overviews overviews, Detail detail) {
-  auto map = GroundMap::open(raster, figure);
-  if (!map) return map.error();
-  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, figure, *std::move(map), grid, overviews, detail));
-}
-
-Result<GroundMap, TileFailure> TilePlanner::take_map() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_.empty()) {
-      GroundMap map = std::move(idle_.back());
-      idle_.pop_back();
-      return map;
-    }
-  }
-  auto opened = GroundMap::open(raster_, figure_);
-  if (!opened) return TileFailure{MissingKind::failed, opened.error().message};
-  return *std::move(opened);
-}
-
-void TilePlanner::put_back(GroundMap map) {
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(map));
+  auto maps = GroundMaps::open(raster, figure);
+  if (!maps) return maps.error();
+  return std::shared_ptr<TilePlanner>(new TilePlanner(raster, *std::move(maps), grid, overviews, detail));
 }
 
 Result<WarpPlan, TileFailure> TilePlanner::plan(const TileId& id) {
-  auto map = take_map();
-  if (!map) return map.error();
-  WarpPlan plan = plan_tile(*map, frame_, id);
-  put_back(*std::move(map));
-  return plan;
+  return maps_->lend([&](const GroundMap& map) { return plan_tile(map_of_tile(map, grid_, id), frame_); });
 }
 
 Result<CrsPoint, TileFailure> TilePlanner::pixel_at(const RowPlace& place) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  auto map = take_map();
-  if (!map) return map.error();
-  CrsPoint pixel{kNone, kNone};
-  map->pixels(std::span(&place, 1), std::span(&pixel, 1));
-  // The turn runs along the rows of every raster that has one and is stored north up.
-  if (const auto turn = map->turn_px(); turn && turn->y == 0.0 && turn->x != 0.0) {
-    const double turns = std::floor(pixel.x / std::abs(turn->x));
-    if (std::isfinite(turns)) pixel.x -= turns * std::abs(turn->x);
-  }
-  put_back(*std::move(map));
-  return pixel;
+  return maps_->lend([&](const GroundMap& map) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    CrsPoint pixel{kNone, kNone};
+    map.pixels(std::span(&place, 1), std::span(&pixel, 1));
+    // The turn runs along the rows of every raster that has one and is stored north up.
+    if (const auto turn = map.turn_px(); turn && turn->y == 0.0 && turn->x != 0.0) {
+      const double turns = std::floor(pixel.x / std::abs(turn->x));
+      if (std::isfinite(turns)) pixel.x -= turns * std::abs(turn->x);
+    }
+    return pixel;
+  });
 }
 
 std::unique_ptr<TileSource> make_warp_source(std::unique_ptr<RasterSource> raster, std::shared_ptr<TilePlanner> planner,

@@ -50,8 +50,7 @@ struct WarpOptions {
 [[nodiscard]] Result<std::unique_ptr<TileSource>> warp_source(std::unique_ptr<RasterSource> raster,
                                                               const WarpOptions& options, const std::string& where);
 
-/// Plans tiles for several threads at a time: each uses its own map, because PROJ's objects belong to one thread.
-/// thread: any
+/// Plans tiles for several threads at a time. thread: any
 class TilePlanner {
  public:
   /// Fails as GroundMap::open() does.
@@ -59,24 +58,19 @@ class TilePlanner {
                                                                  const TileGrid& grid, Overviews overviews,
                                                                  Detail detail = Detail::usual);
   [[nodiscard]] const WarpFrame& frame() const { return frame_; }
-  /// Fails if no map can be opened for a further thread: too many open files, not enough memory.
+  /// Fails as GroundMaps::lend() does.
   [[nodiscard]] Result<WarpPlan, TileFailure> plan(const TileId& id);
   /// The pixel of the raster's finest level under a place; infinite if there is none (GroundMap::pixels()). Fails as
   /// plan() does.
   [[nodiscard]] Result<CrsPoint, TileFailure> pixel_at(const RowPlace& place);
 
  private:
-  /// Lends a map of its own to a caller.
-  [[nodiscard]] Result<GroundMap, TileFailure> take_map();
-  void put_back(GroundMap map);
-  TilePlanner(const RasterInfo& raster, const WarpFigure& figure, GroundMap map, const TileGrid& grid,
-              Overviews overviews, Detail detail);
+  TilePlanner(const RasterInfo& raster, std::shared_ptr<GroundMaps> maps, const TileGrid& grid, Overviews overviews,
+              Detail detail);
 
-  const RasterInfo raster_;
-  const WarpFigure figure_;
+  const std::shared_ptr<GroundMaps> maps_;
+  const TileGrid grid_;
   const WarpFrame frame_;
-  std::mutex mutex_;             ///< guards idle_
-  std::vector<GroundMap> idle_;  ///< maps that no thread uses
 };
 
 /// Makes the source of another time (TileSource::at_time()).

@@ -8,6 +8,7 @@ import struct
 import subprocess
 import time
 import unittest
+import zipfile
 import zlib
 
 from pictures import png_of
@@ -49,6 +50,27 @@ class Film(ProgramTest):
 
     def frames(self, folder):
         return {path.name: path.read_bytes() for path in (self.folder / folder).glob("*.png")}
+
+    def test_tour_of_a_kmz_file(self):
+        """A tour of Google Earth is a film, as the same views in GeoJSON are; its sound is left out by name."""
+        def view(lon):
+            return f"""<Camera><longitude>{lon}</longitude><latitude>47</latitude><altitude>900000</altitude>
+                       <tilt>30</tilt><altitudeMode>absolute</altitudeMode></Camera>"""
+        steps = "".join(f"<gx:FlyTo><gx:duration>1</gx:duration>{view(lon)}</gx:FlyTo>" for lon in (5, 9))
+        kml = f"""<kml xmlns="http://www.opengis.net/kml/2.2" xmlns:gx="http://www.google.com/kml/ext/2.2"><Document>
+                  <gx:Tour><gx:Playlist>{steps}<gx:SoundCue/></gx:Playlist></gx:Tour></Document></kml>"""
+        with zipfile.ZipFile(self.folder / "tour.kmz", "w") as out:
+            out.writestr("doc.kml", kml)
+        same = {"type": "Feature", "properties": {"duration_s": 1, "pitch": -60},
+                "geometry": {"type": "LineString", "coordinates": [[5, 47, 900000], [9, 47, 900000]]}}
+        self.write("f.geojson", json.dumps(same).encode())
+        self.film(output="lines/%d.png")
+        done = self.assert_done("render", NATURAL_EARTH, "--flight", "tour.kmz", "--fps", "8", *SIZE, "-o", "tour/%d.png")
+        self.assertIn("SoundCue", done.stderr)
+        self.assertEqual(len(self.frames("tour")), 8)
+        self.assertEqual(self.frames("tour"), self.frames("lines"))
+        self.write("places.kml", kml.replace("gx:Tour>", "Folder>").encode())
+        self.assert_fails(FAILED, "render", "--flight", "places.kml", "-o", "no/%d.png", says=("places.kml", "gx:Tour"))
 
     def test_whole_killed_and_in_shards(self):
         self.write("hills.png", hills(512, 256))

@@ -15,19 +15,6 @@ namespace {
 /// Largest longitude of bounds, degrees: pictures from 0 to 360 are frequent.
 constexpr double kMostLongitude_deg = 360.0;
 
-Result<CrsBounds> parse_bounds(const std::string& text) {
-  std::array<double, 4> sides{};
-  const auto pieces = split_at_commas(text);
-  bool read = pieces.size() == sides.size();
-  for (std::size_t i = 0; read && i < sides.size(); ++i) {
-    const auto number = read_number(pieces[i]);
-    read = number.has_value();
-    sides[i] = number.value_or(0.0);
-  }
-  if (!read) return Error{fmt::format("{} is not W,S,E,N; write four numbers, as 5,43,17,49", in_quotes(text))};
-  return CrsBounds{sides[0], sides[1], sides[2], sides[3]};
-}
-
 Status check_words(const PlaceWords& words) {
   if (!words.bounds) return Done{};
   const CrsBounds& b = *words.bounds;
@@ -46,6 +33,19 @@ Status check_words(const PlaceWords& words) {
 }
 
 }  // namespace
+
+Result<CrsBounds> parse_bounds(const std::string& text) {
+  std::array<double, 4> sides{};
+  const auto pieces = split_at_commas(text);
+  bool read = pieces.size() == sides.size();
+  for (std::size_t i = 0; read && i < sides.size(); ++i) {
+    const auto number = read_number(pieces[i]);
+    read = number.has_value();
+    sides[i] = number.value_or(0.0);
+  }
+  if (!read) return Error{fmt::format("{} is not W,S,E,N; write four numbers, as 5,43,17,49", in_quotes(text))};
+  return CrsBounds{sides[0], sides[1], sides[2], sides[3]};
+}
 
 std::string bounds_text(const CrsBounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.west, bounds.south, bounds.east, bounds.north);

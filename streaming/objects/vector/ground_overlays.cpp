@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/number.h"
+#include "streaming/remote/wmts/xml_names.h"
 
 namespace terrella {
 namespace {
@@ -21,19 +22,8 @@ constexpr double kTurn = 360.0;
 constexpr std::size_t kMostDocuments = 20'000;
 constexpr int kMostFolders = 64;  // levels of elements whose visibility counts
 
-pugi::xml_node child_of(const pugi::xml_node& parent, std::string_view name) {
-  for (const pugi::xml_node& child : parent.children()) {
-    if (local_name(child) == name) return child;
-  }
-  return {};
-}
-
-std::string_view text_in(const pugi::xml_node& parent, std::string_view name) {
-  return trimmed(child_of(parent, name).child_value());
-}
-
 std::optional<double> number_in(const pugi::xml_node& parent, std::string_view name) {
-  return read_number(text_in(parent, name));
+  return read_number(text_of(parent, name));
 }
 
 bool is_place(const CrsPoint& corner) { return std::abs(corner.x) <= 2.0 * kTurn && std::abs(corner.y) <= 90.0; }
@@ -61,7 +51,7 @@ Result<std::array<CrsPoint, 4>> corners_of_box(const pugi::xml_node& box) {
 /// Corners of a gx:LatLonQuad, with longitudes that go on over ±180°.
 Result<std::array<CrsPoint, 4>> corners_of_quad(const pugi::xml_node& quad) {
   std::array<CrsPoint, 4> corners{};
-  std::istringstream places{std::string(text_in(quad, "coordinates"))};
+  std::istringstream places{std::string(text_of(quad, "coordinates"))};
   std::string place;
   std::size_t count = 0;
   for (; places >> place && count < corners.size(); ++count) {
@@ -93,12 +83,12 @@ class OverlayWalk : public pugi::xml_tree_walker {
 
  private:
   void complain(const pugi::xml_node& overlay, const std::string& what) {
-    const std::string name(text_in(overlay, "name"));
+    const std::string name(text_of(overlay, "name"));
     found_.complaints.push_back(fmt::format("GroundOverlay {}: {}", in_quotes(name), what));
   }
 
   void take(const pugi::xml_node& overlay) {
-    const std::string_view reference = text_in(child_of(overlay, "Icon"), "href");
+    const std::string_view reference = text_of(child_of(overlay, "Icon"), "href");
     if (reference.empty()) return complain(overlay, "it names no picture; it is left out");
     if (reference.find("://") != std::string_view::npos) {
       return complain(overlay, fmt::format("its picture {} is on a network; save it beside the file", reference));
@@ -107,8 +97,8 @@ class OverlayWalk : public pugi::xml_tree_walker {
     const auto corners = quad ? corners_of_quad(quad) : corners_of_box(child_of(overlay, "LatLonBox"));
     if (!corners) return complain(overlay, corners.error().message + "; it is left out");
     if (!std::ranges::all_of(*corners, is_place)) return complain(overlay, "its corners are no places; it is left out");
-    if (text_in(overlay, "altitudeMode") == "absolute") complain(overlay, "it is drawn on the ground");
-    const std::string_view colour = text_in(overlay, "color");
+    if (text_of(overlay, "altitudeMode") == "absolute") complain(overlay, "it is drawn on the ground");
+    const std::string_view colour = text_of(overlay, "color");
     if (colour.size() == 8 && !colour.starts_with("ff") && !colour.starts_with("FF")) {
       complain(overlay, "it is drawn opaque; set the opacity of its layer");
     }
@@ -120,7 +110,7 @@ class OverlayWalk : public pugi::xml_tree_walker {
 
   void link(const pugi::xml_node& node) {
     const pugi::xml_node link = child_of(node, "Link");
-    const std::string_view reference = text_in(link ? link : child_of(node, "Url"), "href");
+    const std::string_view reference = text_of(link ? link : child_of(node, "Url"), "href");
     if (reference.empty() || !is_shown(node)) return;
     if (reference.find("://") == std::string_view::npos) {
       return links_.push_back(KmlFile::resolved(document_, reference));
@@ -131,7 +121,7 @@ class OverlayWalk : public pugi::xml_tree_walker {
 
   static bool is_shown(pugi::xml_node node) {
     for (int depth = 0; node && depth < kMostFolders; ++depth, node = node.parent()) {
-      if (text_in(node, "visibility") == "0") return false;
+      if (text_of(node, "visibility") == "0") return false;
     }
     return true;
   }

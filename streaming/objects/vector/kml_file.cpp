@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <pugixml.hpp>
 
@@ -27,6 +28,12 @@ std::string document_of(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+bool is_kml_name(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".kml" || ending == ".kmz";
+}
 
 std::string_view local_name(const pugi::xml_node& node) {
   const std::string_view name = node.name();

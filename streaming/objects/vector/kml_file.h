@@ -15,6 +15,9 @@ class xml_node;
 
 namespace terrella {
 
+/// True for the name of a KML or KMZ file. thread: any
+[[nodiscard]] bool is_kml_name(const std::filesystem::path& path);
+
 /// Name of an element without the prefix of its namespace.
 [[nodiscard]] std::string_view local_name(const pugi::xml_node& node);
 

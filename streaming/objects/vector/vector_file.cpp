@@ -110,11 +110,6 @@ bool links_to_pictures(const fs::path& path) {
 
 GdalSettings::Settings vector_settings() { return {{"LIBKML_EXTERNAL_STYLE", "NO"}, {"LIBKML_RESOLVE_STYLE", "YES"}}; }
 
-bool is_kml_name(const fs::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".kml" || ending == ".kmz";
-}
-
 bool is_zip_name(const fs::path& path) {
   const std::string ending = lower_ending(path);
   return ending == ".zip" || ending == ".shz" || ending == ".kmz";

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "streaming/objects/vector/kml_file.h"
 #include "streaming/raster/gdal/gdal_library.h"
 
 namespace terrella {
@@ -21,8 +22,6 @@ struct VectorFile {
   bool has_links = false;  ///< KML with links to features, or to a network, which are not followed
 };
 
-/// True for the name of a KML or KMZ file. thread: any
-[[nodiscard]] bool is_kml_name(const std::filesystem::path& path);
 /// True for the name of a file whose format is a ZIP file: KMZ, and shapefiles in one. thread: any
 [[nodiscard]] bool is_zip_name(const std::filesystem::path& path);
 /// Settings that must hold while a vector file is opened and read: shared styles of KML count, styles elsewhere do not.

@@ -51,7 +51,9 @@ namespace terrella {
   X(OSRGetAuthorityCode) X(OSRGetAuthorityName) X(OSRIsCompound) X(OSRSetFromUserInput) \
   X(VSIFCloseL) X(VSIFOpenL) X(VSIFReadL) X(VSIReadDirRecursive) X(VSIStatExL) \
   X(VSIAllocFilesystemPluginCallbacksStruct) X(VSIFree) X(VSIFreeFilesystemPluginCallbacksStruct) \
-  X(VSIInstallPluginHandler)
+  X(VSIInstallPluginHandler) \
+  X(GDALAddBand) X(GDALCreate) X(GDALCreateCopy) X(GDALGetDriverByName) X(GDALSetGeoTransform) \
+  X(GDALSetMetadataItem) X(GDALSetRasterColorInterpretation) X(GDALSetSpatialRef)
 // clang-format on
 
 /// The loaded library: api.GDALOpenEx(…) calls GDAL's function of that name.

@@ -149,4 +149,34 @@ std::vector<RowPlace> GroundMap::places(std::span<const CrsPoint> pixels) const 
   return places;
 }
 
+GroundMaps::GroundMaps(RasterInfo raster, const WarpFigure& figure, GroundMap map)
+    : raster_(std::move(raster)), figure_(figure), turn_px_(map.turn_px()) {
+  idle_.push_back(std::move(map));
+}
+
+Result<std::shared_ptr<GroundMaps>> GroundMaps::open(const RasterInfo& raster, const WarpFigure& figure) {
+  auto map = GroundMap::open(raster, figure);
+  if (!map) return map.error();
+  return std::shared_ptr<GroundMaps>(new GroundMaps(raster, figure, *std::move(map)));
+}
+
+Result<GroundMap, TileFailure> GroundMaps::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      GroundMap map = std::move(idle_.back());
+      idle_.pop_back();
+      return map;
+    }
+  }
+  auto opened = GroundMap::open(raster_, figure_);
+  if (!opened) return TileFailure{MissingKind::failed, opened.error().message};
+  return *std::move(opened);
+}
+
+void GroundMaps::put_back(GroundMap map) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(map));
+}
+
 }  // namespace terrella

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/result.h"
 #include "geo/ellipsoid.h"
 #include "streaming/georeference/crs.h"
 #include "streaming/raster/raster_source.h"
 #include "tiles/tile_grid.h"
+#include "tiles/tile_source.h"
 
 namespace terrella {
 
@@ -52,6 +57,36 @@ class GroundMap {
   double to_crs_tangent_ = 1.0;  ///< tan(latitude of the system) / tan(row latitude)
   double middle_lon_deg_ = 0.0;  ///< set with turn_px_: far from the ends of the map
   std::optional<CrsPoint> turn_px_;
+};
+
+/// Maps of one raster for several threads at a time: each uses its own, because PROJ's objects belong to one thread.
+/// thread: any
+class GroundMaps {
+ public:
+  /// Fails as GroundMap::open() does.
+  [[nodiscard]] static Result<std::shared_ptr<GroundMaps>> open(const RasterInfo& raster, const WarpFigure& figure);
+  /// Returns use(map). Fails if no map can be opened for a further thread: too many open files, not enough memory.
+  template <class Use>
+  [[nodiscard]] auto lend(const Use& use) -> Result<decltype(use(std::declval<const GroundMap&>())), TileFailure> {
+    auto map = take();
+    if (!map) return map.error();
+    auto used = use(static_cast<const GroundMap&>(*map));
+    put_back(*std::move(map));
+    return used;
+  }
+  /// GroundMap::turn_px() of all of them.
+  [[nodiscard]] const std::optional<CrsPoint>& turn_px() const { return turn_px_; }
+
+ private:
+  GroundMaps(RasterInfo raster, const WarpFigure& figure, GroundMap map);
+  [[nodiscard]] Result<GroundMap, TileFailure> take();
+  void put_back(GroundMap map);
+
+  const RasterInfo raster_;
+  const WarpFigure figure_;
+  const std::optional<CrsPoint> turn_px_;
+  std::mutex mutex_;             ///< guards idle_
+  std::vector<GroundMap> idle_;  ///< maps that no thread uses
 };
 
 /// Pixel coordinates of one level as a function of another's: both have the same coordinate system.

@@ -14,47 +14,30 @@ constexpr double kMostError_px = 0.001;
 constexpr double kMostSpan_deg = 30.0;
 /// An area of this size without a point of the map at its nodes has none at all.
 constexpr double kEmptySpan_deg = 6.0;
-/// Distance from the edges of a tile at which its edges are looked up: the map may end at ±180° and at the poles.
-constexpr double kInset_px = 1e-6;
-
 bool has_place(const CrsPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 class Refiner {
  public:
-  Refiner(const GroundMap& map, const RasterArea& raster, const TileGrid& grid, const TileId& id)
-      : map_(map),
-        raster_(raster),
-        cyclic_(raster.is_cyclic()),
-        side_px_(grid.tile_px),
-        step_deg_(tile_span_deg(grid, id.level) / grid.tile_px),
-        bounds_(tile_bounds(grid, id)) {
-    const double rows = std::ceil((bounds_.north_deg + 90.0) / step_deg_ - kInset_px);
-    refine(0, 0, side_px_, static_cast<int>(std::min<double>(side_px_, rows)));
+  Refiner(const PixelMap& tile, const RasterArea& raster) : tile_(tile), raster_(raster), cyclic_(raster.is_cyclic()) {
+    refine(0, 0, tile.tile_px, tile.rows);
   }
   std::vector<Patch> patches;
 
  private:
-  [[nodiscard]] RowPlace place(double x, double y) const {
-    const double inside_x = std::clamp(x, kInset_px, side_px_ - kInset_px);
-    const double inside_y = std::clamp(y, kInset_px, side_px_ - kInset_px);
-    const double row = bounds_.north_deg - inside_y * step_deg_;
-    return {bounds_.west_deg + inside_x * step_deg_, std::max(row, -90.0 + kInset_px * step_deg_)};
-  }
-
   void look_up(std::span<const CrsPoint> tile_px, std::span<CrsPoint> out) {
-    std::vector<RowPlace> places;
+    std::vector<CrsPoint> places;
     std::vector<std::size_t> unknown;
     for (std::size_t i = 0; i < tile_px.size(); ++i) {
       const auto known = known_.find(key(tile_px[i]));
       if (known != known_.end()) {
         out[i] = known->second;
       } else {
-        places.push_back(place(tile_px[i].x, tile_px[i].y));
+        places.push_back(tile_px[i]);
         unknown.push_back(i);
       }
     }
     std::vector<CrsPoint> found(places.size());
-    map_.pixels(places, found);
+    tile_.pixels(places, found);
     for (std::size_t i = 0; i < unknown.size(); ++i) {
       out[unknown[i]] = known_[key(tile_px[unknown[i]])] = found[i];
     }
@@ -71,7 +54,7 @@ class Refiner {
       at[static_cast<std::size_t>(k)] = {x0 + 0.5 * (k % 3) * (x1 - x0), y0 + 0.5 * (k / 3) * (y1 - y0)};
     }
     look_up(at, nodes);
-    const double span = std::max(x1 - x0, y1 - y0) * step_deg_;
+    const double span = std::max(x1 - x0, y1 - y0) * tile_.pixel_deg;
     const auto placed = std::ranges::count_if(nodes, has_place);
     const bool single = x1 - x0 == 1 && y1 - y0 == 1;
     if (placed == 0 && (single || span <= kEmptySpan_deg)) return;
@@ -181,10 +164,9 @@ class Refiner {
     if (!has_place(centre)) return;
     constexpr double kStep = 1.0 / 64.0;
     const double cx = x + 0.5, cy = y + 0.5;
-    const std::array around = {place(cx - kStep, cy), place(cx + kStep, cy), place(cx, cy - kStep),
-                               place(cx, cy + kStep)};
+    const std::array<CrsPoint, 4> around{{{cx - kStep, cy}, {cx + kStep, cy}, {cx, cy - kStep}, {cx, cy + kStep}}};
     std::array<CrsPoint, 4> found{};
-    map_.pixels(around, found);
+    tile_.pixels(around, found);
     const auto slope = [&](std::size_t first) {
       const CrsPoint before{centre.x - found[first].x, centre.y - found[first].y};
       const CrsPoint after{found[first + 1].x - centre.x, found[first + 1].y - centre.y};
@@ -202,12 +184,9 @@ class Refiner {
     keep(patch, true);
   }
 
-  const GroundMap& map_;
+  const PixelMap& tile_;
   const RasterArea& raster_;
   const bool cyclic_;
-  const int side_px_;
-  const double step_deg_;
-  const TileBounds bounds_;
   std::unordered_map<std::uint64_t, CrsPoint> known_;
 };
 
@@ -220,9 +199,8 @@ bool RasterArea::is_cyclic() const {
   return columns >= 1.0 && std::abs(columns - std::round(columns)) <= kWhole_px && width_px >= columns - kWhole_px;
 }
 
-std::vector<Patch> tile_patches(const GroundMap& map, const RasterArea& raster, const TileGrid& grid,
-                                const TileId& id) {
-  return Refiner(map, raster, grid, id).patches;
+std::vector<Patch> tile_patches(const PixelMap& tile, const RasterArea& raster) {
+  return Refiner(tile, raster).patches;
 }
 
 }  // namespace terrella

@@ -3,9 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "streaming/warp/map/ground_map.h"
 #include "streaming/warp/map/patch.h"
-#include "tiles/tile_grid.h"
+#include "streaming/warp/map/pixel_map.h"
 
 namespace terrella {
 
@@ -22,7 +21,6 @@ struct RasterArea {
 /// Divides a tile into patches. Patches of the same size as a pixel are exact at its centre; the others are within 0.05
 /// source pixels of PROJ's own answer, or of the pixels of an overview that suits the tile. Places without a source
 /// pixel are in no patch: their map has no point, or the point is not on the raster. thread: one at a time for a map
-[[nodiscard]] std::vector<Patch> tile_patches(const GroundMap& map, const RasterArea& raster, const TileGrid& grid,
-                                              const TileId& id);
+[[nodiscard]] std::vector<Patch> tile_patches(const PixelMap& tile, const RasterArea& raster);
 
 }  // namespace terrella
