@@ -231,12 +231,16 @@ Status finish_archive(const PreloadCommand& command, const PreloadSource& source
   const bool whole = result.end == PreloadEnd::complete && result.counts.missing() == 0 && !is_empty(result.counts);
   if (!whole || !is_web_format(command.output)) return Done{};
   Progress progress("writing " + command.output);
-  Status made =
+  const auto made =
       make_archive(command.output, source, plan, std::move(cache), [&](std::int64_t done, std::int64_t total) {
         progress.show(done, total);
         return !StopSignals::came();
       });
-  if (made || !StopSignals::came()) return made;
+  if (made && *made) {
+    print_message("terrella preload: {} has tiles of another plan too and is kept\n", cache_file_of(command.output));
+  }
+  if (made) return Done{};
+  if (!StopSignals::came()) return made.error();
   result.end = PreloadEnd::stopped;
   return Done{};
 }

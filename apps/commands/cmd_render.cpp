@@ -205,7 +205,7 @@ void check_map_options(const CLI::App& sub) {
                                   "--latitude",   "--body",
                                   "--overlay",    "--overlay-projection",
                                   "--cache",      "--cache-size",
-                                  "--memory",     "--offline",
+                                      "--offline",
                                   "--west",       "--nodata",
                                   "--stretch",    "--colormap",
                                   "--band",       "--bands",

@@ -238,6 +238,14 @@ Result<FlightFile> read_tour_file(const std::filesystem::path& path) {
   if (read->tours.empty()) {
     return Error{path.string() + ": it has no tour; a flight is a gx:Tour of a KML file, or a GeoJSON LineString"};
   }
+  for (const KmlTour& tour : read->tours) {
+    for (const TourView& at : tour.views) {
+      const auto known = at.view.instant ? almanac_at(*at.view.instant) : Result<Almanac>(Error{});
+      if (at.view.instant && !known) {
+        return Error{fmt::format("{}: its tour {}: {}", path.string(), in_quotes(tour.name), known.error().message)};
+      }
+    }
+  }
   FlightFile flight{flights_of(read->tours), *std::move(text)};
   for (const std::string& what : read->complaints) {
     flight.complaints.push_back(fmt::format("{}: {}", path.string(), what));

@@ -42,7 +42,10 @@ class PlannedTiles : public TileSource, public TileLister {
 
   [[nodiscard]] Status for_each_tile(const std::function<bool(const TileId&)>& call) override {
     bool goes_on = true;
-    const auto look = [](const TileId&) { return true; };
+    const auto look = [this](const TileId&) {
+      ++stored_tiles;
+      return true;
+    };
     if (Status all = dynamic_cast<TileLister&>(*stored_).for_each_tile(look); !all) return all;
     const auto feed = plan_.walk();
     for (auto run = feed->next(); run && goes_on; run = feed->next()) {
@@ -56,6 +59,8 @@ class PlannedTiles : public TileSource, public TileLister {
     }
     return Done{};
   }
+
+  std::int64_t stored_tiles = 0;  ///< tiles of the cache, once they were listed
 
  private:
   const TilePlan& plan_;
@@ -84,20 +89,18 @@ Result<bool> has_archive(const std::string& output, const PreloadSource& source,
   return Error{output + ": is there already, and was not made by this preload; name another output, or move it away"};
 }
 
-Status make_archive(const std::string& output, const PreloadSource& source, const TilePlan& plan,
-                    std::shared_ptr<TileCache> cache,
-                    const std::function<bool(std::int64_t done, std::int64_t total)>& progress) {
+Result<bool> make_archive(const std::string& output, const PreloadSource& source, const TilePlan& plan,
+                          std::shared_ptr<TileCache> cache,
+                          const std::function<bool(std::int64_t done, std::int64_t total)>& progress) {
   const std::string file = cache_file_of(output);
-  auto stored = merged_tiles({file}, cache->info(), output);
-  const auto made = convert({.from = file,
-                             .to = output,
-                             .source = std::make_shared<PlannedTiles>(plan, *cache, std::move(stored)),
-                             .mark = mark_of(source, plan),
-                             .progress = progress});
+  const auto planned = std::make_shared<PlannedTiles>(plan, *cache, merged_tiles({file}, cache->info(), output));
+  const auto made =
+      convert({.from = file, .to = output, .source = planned, .mark = mark_of(source, plan), .progress = progress});
   if (!made) return made.error();
   cache.reset();
-  remove_database(file);
-  return Done{};
+  const bool has_more = planned->stored_tiles > made->tiles + made->blank;
+  if (!has_more) remove_database(file);
+  return has_more;
 }
 
 }  // namespace terrella

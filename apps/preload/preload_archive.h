@@ -23,10 +23,11 @@ namespace terrella {
 /// something else has the name of such an output. thread: any
 [[nodiscard]] Result<bool> has_archive(const std::string& output, const PreloadSource& source, const TilePlan& plan);
 
-/// Makes an MBTiles or PMTiles file of the planned tiles that a cache has, then removes the cache. Nothing but `cache`
-/// may have the cache open. `progress` returns false to stop. Blocks. thread: any
-[[nodiscard]] Status make_archive(const std::string& output, const PreloadSource& source, const TilePlan& plan,
-                                  std::shared_ptr<TileCache> cache,
-                                  const std::function<bool(std::int64_t done, std::int64_t total)>& progress);
+/// Makes an MBTiles or PMTiles file of the planned tiles that a cache has, then removes the cache unless it has more
+/// tiles, which the result says. Nothing but `cache` may have the cache open. `progress` returns false to stop. Blocks.
+/// thread: any
+[[nodiscard]] Result<bool> make_archive(const std::string& output, const PreloadSource& source, const TilePlan& plan,
+                                        std::shared_ptr<TileCache> cache,
+                                        const std::function<bool(std::int64_t done, std::int64_t total)>& progress);
 
 }  // namespace terrella

@@ -166,6 +166,11 @@ Status check_together(const PreloadCommand& command) {
     return Error{"--flight and --bbox or --polygon: one at a time; the same cache takes both, one after the other"};
   }
   if (is_web_format(command.output)) {
+    if (command.shard) {
+      return Error{in_quotes(command.output) +
+                   ": parts of --shard are joined by terrella merge, which takes caches; name an output that ends in "
+                   ".gpkg, and merge the parts into this file"};
+    }
     if (command.release || command.cache_size_mb > 0 || command.refresh_older_than_days) {
       return Error{in_quotes(command.output) +
                    ": --release, --cache-size and --refresh-older-than are for caches; name an output that ends in "

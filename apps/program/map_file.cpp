@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -79,7 +80,7 @@ class MapDrawing {
   }
 
   void draw() {
-    in_parallel(0, std::int64_t{across_} * down_,
+    in_parallel(thread_count(0), std::int64_t{across_} * down_,
                 [this](std::int64_t block) { draw_block(block % across_, block / across_); });
   }
 
@@ -95,7 +96,7 @@ class MapDrawing {
     if (StopSignals::came()) return;
     Colours colours(static_cast<std::size_t>(kBlock_px) * kBlock_px);
     for (const MapLayer& layer : layers_) {
-      const auto block = layer.pixels->block(column, row, deadline_);
+      const auto block = layer.pixels->block(column, row, [this] { return may_wait(); });
       if (block) {
         draw_over(layer, *block, colours);
       } else if (block.error().kind != MissingKind::absent && block.error().kind != MissingKind::blank) {
@@ -154,16 +155,18 @@ class MapDrawing {
     }
   }
 
+  [[nodiscard]] bool is_late() const { return std::chrono::steady_clock::now() >= deadline_; }
+  [[nodiscard]] bool may_wait() const { return !StopSignals::came() && !is_late(); }
+
   void note(const std::string& why) {
     ++lacked;
     const std::lock_guard lock(mutex_);
-    const bool late = std::chrono::steady_clock::now() >= deadline_;
-    if (reasons.size() < kMostOfMap) reasons.insert(why + (late ? "; --timeout gives servers longer" : ""));
+    if (reasons.size() < kMostOfMap) reasons.insert(why + (is_late() ? "; --timeout gives servers longer" : ""));
   }
 
   const std::vector<MapLayer>& layers_;
   const int across_, down_;  ///< blocks
-  const FlatMapLayer::Deadline deadline_;
+  const std::chrono::steady_clock::time_point deadline_;
   std::mutex mutex_;  ///< guards reasons and attributions
 };
 
@@ -261,7 +264,12 @@ Result<int> write_map(const MapCommand& command) {
   drawing.draw();
   if (StopSignals::came()) return Error{output + ": stopped; no map was written"};
   for (const std::string& why : drawing.reasons) print_message("terrella render: missing: {}\n", one_line(why));
-  if (is_empty(drawing.image)) return Error{"no data are in this --extent; nothing was written"};
+  if (is_empty(drawing.image)) {
+    return Error{drawing.lacked > 0
+                     ? "no tile of this --extent came; nothing was written"
+                     : "no data are in this --extent; nothing was written: name another --extent, in units "
+                       "of --crs, easting first"};
+  }
   if (const Status may = may_write_picture(output, inputs); !may) return may.error();
   const Affine to_crs{map.west, map.unit_per_px, 0.0, map.north, 0.0, -map.unit_per_px};
   const std::string thanks = fmt::format("{}", fmt::join(drawing.attributions, "; "));
@@ -277,12 +285,18 @@ Result<int> write_map(const MapCommand& command) {
 
 Status check_together(const MapCommand& command) {
   const CrsBounds& extent = command.extent;
-  const bool finite = std::isfinite(extent.west + extent.south + extent.east + extent.north);
-  if (!finite || extent.west >= extent.east || extent.south >= extent.north) {
+  constexpr double kFarthest = 1e12;
+  const bool near = std::max({std::abs(extent.west), std::abs(extent.south), std::abs(extent.east),
+                              std::abs(extent.north)}) < kFarthest;
+  // A pixel must move the edges on.
+  const double unit = map_of(command).unit_per_px;
+  if (!near || !(extent.west + unit > extent.west) || !(extent.north - unit < extent.north) ||
+      extent.west >= extent.east || extent.south >= extent.north) {
     return Error{"--extent: it takes WEST < EAST and SOUTH < NORTH, in the units of --crs"};
   }
-  const std::string extension = std::filesystem::path(command.render.output).extension().string();
-  if (extension == ".tif" || extension == ".tiff" || extension == ".TIF") return Done{};
+  std::string extension = std::filesystem::path(command.render.output).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (extension == ".tif" || extension == ".tiff") return Done{};
   return Error{"--output: a map of --extent is a GeoTIFF; name a file that ends in .tif"};
 }
 

@@ -78,6 +78,7 @@ class MergedCaches : public TileSource, public TileLister {
     find_->bind(3, id.y);
     const auto found = find_->step();
     if (!found) return TileFailure{MissingKind::failed, found.error().message};
+    if (!*found) return TileFailure{MissingKind::absent, "the caches do not have the tile"};
     const auto cache = static_cast<std::size_t>(find_->integer(0));
     const std::int64_t row = find_->integer(1);
     find_->reset();
@@ -91,7 +92,12 @@ class MergedCaches : public TileSource, public TileLister {
     tile.bind(1, row);
     const auto there = tile.step();
     if (!there) return unreadable(cache, there.error());
-    const auto bytes = *there ? tile.blob(0) : std::nullopt;
+    if (!*there) {
+      tile.reset();
+      return TileFailure{MissingKind::failed,
+                         caches_[cache].string() + ": another program has removed a tile; try again"};
+    }
+    const auto bytes = tile.blob(0);
     EncodedTile answer;
     if (bytes) answer.bytes.assign(bytes->begin(), bytes->end());
     tile.reset();

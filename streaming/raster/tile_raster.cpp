@@ -45,8 +45,9 @@ RasterLevel level_of(const TileGrid& grid, const CrsSquare& square, int level) {
   const double pixel_deg = tile_span_deg(grid, level) / grid.tile_px;
   const double pixel = pixel_deg * square.unit_per_deg;
   const RowLatitudes rows = row_bounds(grid);
+  const double west_deg = grid.projection == Projection::web_mercator ? -180.0 : grid.west_deg;
   const bool crosses = grid.bounds.east.deg() <= grid.bounds.west.deg();
-  return {.width_px = pixels_over((crosses ? 180.0 : grid.bounds.east.deg()) - grid.west_deg, pixel_deg),
+  return {.width_px = pixels_over((crosses ? 180.0 : grid.bounds.east.deg()) - west_deg, pixel_deg),
           .height_px = pixels_over(top_row_deg(grid) - rows.south_deg, pixel_deg),
           .block_width_px = grid.tile_px,
           .block_height_px = grid.tile_px,

@@ -1,10 +1,14 @@
 #include "streaming/warp/flat_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -116,17 +120,19 @@ PixelMap map_of_block(const BlockPlaces& places, const SourceGrid& source) {
   return block;
 }
 
-}  // namespace
-
-Status check_system(const std::string& crs, const Body& body) {
+/// Facts of a map's system. Fails if it is one of another body.
+Result<CrsFacts> system_of(const std::string& crs, const Body& body) {
   const auto opened = Crs::open(crs);
   if (!opened) return opened.error();
   const std::string stated = stated_body(opened->facts());
   const auto its_body = parse_body(stated.empty() ? "earth" : stated);
   if (!its_body) return its_body.error();
-  if (!are_two_bodies(*its_body, body)) return Done{};
-  return Error{"it is a system of another body (" + (stated.empty() ? "earth" : stated) + ") than the globe's"};
+  if (!are_two_bodies(*its_body, body)) return opened->facts();
+  return Error{fmt::format("it is a system of another body ({}) than the globe's ({}); name one of the globe's body",
+                           its_body->name, body.name)};
 }
+
+}  // namespace
 
 struct FlatMapLayer::Parts {
   TileSetInfo info;
@@ -145,10 +151,12 @@ struct FlatMapLayer::Parts {
     return WarpJob(blocks, *std::move(plan));
   }
   /// The block's recipe; waits for a server.
-  [[nodiscard]] Result<EncodedTile, TileFailure> recipe_of(const TileId& block, Deadline deadline) const;
+  [[nodiscard]] Result<EncodedTile, TileFailure> recipe_of(const TileId& block,
+                                                           const std::function<bool()>& may_wait) const;
 };
 
-Result<EncodedTile, TileFailure> FlatMapLayer::Parts::recipe_of(const TileId& block, Deadline deadline) const {
+Result<EncodedTile, TileFailure> FlatMapLayer::Parts::recipe_of(const TileId& block,
+                                                                const std::function<bool()>& may_wait) const {
   if (!fetcher) {
     auto job = job_of(block);
     if (!job) return job.error();
@@ -159,7 +167,10 @@ Result<EncodedTile, TileFailure> FlatMapLayer::Parts::recipe_of(const TileId& bl
   const auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> answer = promise->get_future();
   fetcher->tiles().fetch(block, 0.0, [promise](Answer come) { promise->set_value(std::move(come)); });
-  if (answer.wait_until(deadline) == std::future_status::ready) return answer.get();
+  constexpr std::chrono::milliseconds kBetweenLooks{100};
+  do {
+    if (answer.wait_for(kBetweenLooks) == std::future_status::ready) return answer.get();
+  } while (may_wait());
   fetcher->tiles().cancel(block);
   return TileFailure{MissingKind::failed, "no answer in time"};
 }
@@ -171,8 +182,7 @@ FlatMapLayer::~FlatMapLayer() {
 
 Result<std::unique_ptr<FlatMapLayer>> FlatMapLayer::open(std::shared_ptr<TileSource> tiles, const FlatMap& map,
                                                          const Body& body) {
-  if (const Status known = check_system(map.crs, body); !known) return known.error();
-  const auto crs = Crs::open(map.crs);
+  const auto crs = system_of(map.crs, body);
   if (!crs) return crs.error();
   auto maps = GroundMaps::open(raster_of(map), {.ellipsoid = body.ellipsoid});
   if (!maps) return maps.error();
@@ -185,7 +195,7 @@ Result<std::unique_ptr<FlatMapLayer>> FlatMapLayer::open(std::shared_ptr<TileSou
   auto parts = std::make_unique<Parts>(
       Parts{.info = info,
             .maps = *std::move(maps),
-            .source = {info.grid, body.ellipsoid, to_row_places, kBlock_px, pixel_deg_of(map, crs->facts())},
+            .source = {info.grid, body.ellipsoid, to_row_places, kBlock_px, pixel_deg_of(map, *crs)},
             .frame = {.levels = warp_levels(raster->info(), turn, kBlock_px, Overviews::made), .detail = detail},
             .blocks = {}});
   parts->blocks = std::make_shared<const StoredBlocks>(
@@ -199,8 +209,9 @@ Result<std::unique_ptr<FlatMapLayer>> FlatMapLayer::open(std::shared_ptr<TileSou
 
 const TileSetInfo& FlatMapLayer::info() const { return parts_->info; }
 
-Result<Block, TileFailure> FlatMapLayer::block(std::int64_t column, std::int64_t row, Deadline deadline) {
-  const auto recipe = parts_->recipe_of({.level = 0, .x = column, .y = row}, deadline);
+Result<Block, TileFailure> FlatMapLayer::block(std::int64_t column, std::int64_t row,
+                                               const std::function<bool()>& may_wait) {
+  const auto recipe = parts_->recipe_of({.level = 0, .x = column, .y = row}, may_wait);
   if (!recipe) return recipe.error();
   if (parts_->info.numbers) {
     auto numbers = recipe->make_numbers();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,18 +22,15 @@ struct FlatMap {
   int height_px = 0;         ///< > 0
 };
 
-/// Fails if PROJ does not know the map's system, or if it is a system of another body. thread: any
-[[nodiscard]] Status check_system(const std::string& crs, const Body& body);
-
 /// Makes the pixels of a flat map from the tiles of one set, block by block, as warp_source() makes tiles from a
 /// raster: each pixel is the mean of the ground under it. Places that the map's projection does not reach, and places
 /// without data, are transparent or NaN. thread: any, several at once
 class FlatMapLayer {
  public:
   static constexpr int kBlock_px = 256;
-  using Deadline = std::chrono::steady_clock::time_point;
 
-  /// `tiles`: a set in a geodetic grid, local or remote. Fails as check_system() does.
+  /// `tiles`: a set in a geodetic grid, local or remote. Fails if PROJ does not know the map's
+  /// system, or if it is one of another body.
   [[nodiscard]] static Result<std::unique_ptr<FlatMapLayer>> open(std::shared_ptr<TileSource> tiles, const FlatMap& map,
                                                                   const Body& body);
   ~FlatMapLayer();
@@ -42,9 +39,10 @@ class FlatMapLayer {
 
   [[nodiscard]] const TileSetInfo& info() const;
   /// Makes the block in a column and a row of blocks, kBlock_px a side: an image, or the numbers of the set as its
-  /// tiles have them. Waits for a server until the deadline. `absent` or `blank`: the set has nothing there. Other
-  /// failures name the tile. thread: worker; one call at a time for a block
-  [[nodiscard]] Result<Block, TileFailure> block(std::int64_t column, std::int64_t row, Deadline deadline);
+  /// tiles have them. Waits for a server while `may_wait` says so; it is asked ten times a second. `absent` or `blank`:
+  /// the set has nothing there. Other failures name the tile. thread: worker; one call at a time for a block
+  [[nodiscard]] Result<Block, TileFailure> block(std::int64_t column, std::int64_t row,
+                                                 const std::function<bool()>& may_wait);
 
  private:
   struct Parts;

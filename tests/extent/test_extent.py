@@ -188,6 +188,8 @@ class ExtentTest(ProgramTest):
         done = self.run_program("render", address, *grid, *words, "--timeout", "20", "-o", "part.tif")
         self.assertEqual(done.returncode, DONE_IN_PART, done.stdout + done.stderr)
         self.assertIn("missing: made of the tile 1/0/0", done.stderr)
+        missing[:] = [".png"]
+        self.assert_fails(FAILED, "render", address, *grid, *words, "-o", "none.tif", says=("no tile of this --extent came", "403"))
         part = self.open_map("part.tif").ReadAsArray().astype(float)
         there = part[3] == 255
         self.assertTrue(0.4 < there.mean() < 0.8)
@@ -201,6 +203,8 @@ class ExtentTest(ProgramTest):
                 (WRONG_USAGE, (extent, *polar, "-o", "a.png"), ("--extent", ".tif")),
                 (WRONG_USAGE, ("-o", "a.tif"), ("a.tif", "--extent")),
                 (WRONG_USAGE, ("--extent=3,0,3,1", *polar, "-o", "a.tif"), ("WEST < EAST",)),
+                (WRONG_USAGE, ("--extent=-1e308,-1,1e308,1", *polar, "-o", "a.tif"), ("WEST < EAST",)),
+                (WRONG_USAGE, ("--extent=1e6,0,1000000.0000000001,1", *polar, "-o", "a.tif"), ("WEST < EAST",)),
                 (WRONG_USAGE, ("--extent=3,0,nan,1", *polar, "-o", "a.tif"), ("3,0,nan,1",)),
                 (WRONG_USAGE, (extent, *polar, "--camera", "0,0,1e6", "-o", "a.tif"), ("--extent and --camera",)),
                 (WRONG_USAGE, (extent, *polar, "--time", "2020-01-01T00:00:00Z", "-o", "a.tif"), ("--extent and --time",)),

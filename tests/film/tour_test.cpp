@@ -91,6 +91,18 @@ TEST(Tour, JumpsWithoutADuration) {
   EXPECT_NEAR(flights[1].at(0.0).camera.eye.lon.deg(), 100.0, 1e-9);
 }
 
+/// A duration that the time so far swallows is none: two keyframes at one time have no way between them.
+TEST(Tour, DurationsTooSmallToCount) {
+  const auto read = read_tours(kml_of(fly_to("1", camera("7")) + fly_to("100000", camera("8")) +
+                                      "<gx:Wait><gx:duration>1e-12</gx:duration></gx:Wait>" +
+                                      fly_to("1e-12", camera("9")) + fly_to("1", camera("10"))));
+  ASSERT_TRUE(read) << read.error().message;
+  const auto flights = flights_of(read->tours);
+  ASSERT_EQ(flights.size(), 2U);
+  EXPECT_EQ(flights[0].times(), (std::vector{0.0, 100000.0}));
+  EXPECT_NEAR(flights[1].at(0.5).camera.eye.lon.deg(), 9.5, 0.1);
+}
+
 TEST(Tour, SunFollowsTheViewsThatAllHaveATime) {
   const auto with = [](const std::string& when) { return "<gx:TimeStamp><when>" + when + "</when></gx:TimeStamp>"; };
   const std::string first = fly_to("1", camera("7", with("2026-06-21T08:00:00Z")));
@@ -105,10 +117,13 @@ TEST(Tour, SunFollowsTheViewsThatAllHaveATime) {
 TEST(Tour, NamesWhatIsLeftOut) {
   const auto read =
       read_tours(kml_of(fly_to("1", camera("7", "<roll>10</roll>")) + "<gx:SoundCue><href>a.mp3</href></gx:SoundCue>" +
-                        "<gx:SoundCue><href>b.mp3</href></gx:SoundCue>" + "<gx:FlyTo/>"));
+                        "<gx:SoundCue><href>b.mp3</href></gx:SoundCue>" + "<gx:FlyTo/>" +
+                        fly_to("1", "<Camera><altitudeMode>relativeToGround</altitudeMode></Camera>")));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->complaints, (std::vector<std::string>{"roll of views is left out", "SoundCue of tours is left out",
-                                                        "FlyTo without a Camera or a LookAt is left out"}));
+                                                        "FlyTo without a Camera or a LookAt is left out",
+                                                        "heights over the ground or the sea floor count from the "
+                                                        "ellipsoid"}));
 }
 
 TEST(Tour, RefusesWhatIsNoView) {

@@ -149,6 +149,8 @@ class Archives(PreloadTest):
         self.preload(self.server.template, *WEB[:2], "--max-level", LEVELS - 1, "--levels", f"0-{LEVELS - 2}")
         self.assertEqual(set(tiles_of(self.cache)), set(few))
         self.assertEqual(self.server.paths_since(cut), set())
+        # Tiles of the finest level stay where they are: another plan brought them.
+        self.assertTrue(self.folder.joinpath("web.pmtiles.unfinished.gpkg").exists())
         _, told = self.preload(self.server.template, *WEB, code=FAILED)
         self.assertIn("was not made by this preload", told)
         self.assertEqual(set(tiles_of(self.cache)), set(few))

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kHighest_m = 1e12;
 constexpr double kLongest_s = 1e6;
+constexpr std::size_t kMostComplaints = 16;
 
 struct ViewRange {
   const char* name;
@@ -89,6 +90,7 @@ class TourWalk : public pugi::xml_tree_walker {
 
  private:
   void complain(std::string what) {
+    if (found.complaints.size() == kMostComplaints) return;
     if (std::ranges::find(found.complaints, what) == found.complaints.end())
       found.complaints.push_back(std::move(what));
   }
@@ -98,6 +100,7 @@ class TourWalk : public pugi::xml_tree_walker {
     for (const pugi::xml_node& step : playlist.children()) {
       const std::string_view kind = local_name(step);
       if (step.type() != pugi::node_element) continue;
+      if (++steps_ > kMostTourViews) return Error{fmt::format("it has more than {} steps", kMostTourViews)};
       if (kind != "FlyTo" && kind != "Wait") {
         complain(fmt::format("{} of tours is left out", kind));
         continue;
@@ -106,11 +109,10 @@ class TourWalk : public pugi::xml_tree_walker {
       if (!duration) return duration.error();
       if (kind == "FlyTo") {
         if (Status taken = fly_to(step, *duration, time_s, tour); !taken) return taken;
-      } else if (!tour.views.empty() && *duration > 0.0) {
+      } else if (!tour.views.empty() && time_s + *duration > time_s) {
         time_s += *duration;
         tour.views.push_back({.view = tour.views.back().view, .time_s = time_s});
       }
-      if (++views_ > kMostTourViews) return Error{fmt::format("there are more than {} views", kMostTourViews)};
     }
     return Done{};
   }
@@ -125,14 +127,18 @@ class TourWalk : public pugi::xml_tree_walker {
     const auto view = view_of(node);
     if (!view) return Error{fmt::format("view {}: {}", tour.views.size() + 1, view.error().message)};
     if (read_number(text_of(node, "roll")).value_or(0.0) != 0.0) complain("roll of views is left out");
+    if (text_of(node, "altitudeMode").starts_with("relativeTo")) {
+      complain("heights over the ground or the sea floor count from the ellipsoid");
+    }
     const bool first = tour.views.empty();
+    const double before_s = time_s;
     if (!first) time_s += duration_s;
-    tour.views.push_back({.view = *view, .time_s = time_s, .jumps = !first && duration_s == 0.0});
+    tour.views.push_back({.view = *view, .time_s = time_s, .jumps = !first && time_s == before_s});
     return Done{};
   }
 
   Status fault_ = Done{};
-  std::size_t views_ = 0;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace terrella {
 
-/// Most views of all tours of a KML file.
+/// Most steps of all tours of a KML file.
 inline constexpr std::size_t kMostTourViews = 100'000;
 
 /// A Camera or LookAt of KML. Angles are in degrees; heights count from the ellipsoid.
@@ -38,7 +38,7 @@ struct KmlTour {
 
 struct KmlTours {
   std::vector<KmlTour> tours;           ///< in the order of the document
-  std::vector<std::string> complaints;  ///< elements that are left out, each once
+  std::vector<std::string> complaints;  ///< elements that are left out, each once, at most 16
 };
 
 /// Reads the tours of a KML document, in the text of KmlFile::document(). A tour begins at its first view. The error

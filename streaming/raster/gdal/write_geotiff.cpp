@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -82,10 +83,14 @@ bool write_part(const std::filesystem::path& part, const Image& image, const std
 Status write_geotiff(const std::filesystem::path& path, const Image& image, const std::string& crs,
                      const Affine& to_crs, const std::string& attribution) {
   if (const auto loaded = load_gdal(); !loaded) return Error{path.string() + ": " + loaded.error().message};
+  std::error_code failed;
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) {
+    return Error{path.string() + ": is no file; name a new one"};
+  }
   const std::filesystem::path part = fmt::format("{}.{}.part", path.string(), getpid());
   const GdalMessages messages;
   const bool done = write_part(part, image, crs, to_crs, attribution) && messages.error().empty();
-  std::error_code failed;
+  failed.clear();
   if (done) std::filesystem::rename(part, path, failed);
   if (done && !failed) return Done{};
   const std::string why = failed ? failed.message() : messages.error().empty() ? "GDAL failed" : messages.error();
