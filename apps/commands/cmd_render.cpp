@@ -205,11 +205,10 @@ void check_map_options(const CLI::App& sub) {
                                   "--latitude",   "--body",
                                   "--overlay",    "--overlay-projection",
                                   "--cache",      "--cache-size",
-                                      "--offline",
-                                  "--west",       "--nodata",
-                                  "--stretch",    "--colormap",
-                                  "--band",       "--bands",
-                                  "--unlit"};
+                                  "--offline",    "--west",
+                                  "--nodata",     "--stretch",
+                                  "--colormap",   "--band",
+                                  "--bands",      "--unlit"};
   for (const CLI::Option* option : sub.get_options()) {
     if (option->count() == 0 || std::ranges::find(kOfMaps, option->get_name()) != kOfMaps.end()) continue;
     throw CLI::ValidationError("render", fmt::format("--extent and {}: a map shows images and numbers as they are; "
