@@ -12,7 +12,7 @@ import unittest
 
 import pmtiles
 from pictures import TILE_PX, png, square_tile
-from program import DONE, FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE, ProgramTest
+from program import DONE, FAILED, NATURAL_EARTH, PROGRAM, ProgramTest
 
 LEVELS = 4
 KINDS = ("tiles", "set.gpkg", "set.mbtiles", "set.pmtiles")
@@ -135,8 +135,6 @@ class Convert(ProgramTest):
         self.assert_fails(FAILED, "cut", self.write("planet.png", png(128, 64)), "-o", "cut.pmtiles",
                           says=["cut.pmtiles", "Web Mercator", ".gpkg"])
         self.assert_nothing_but("heights", "planet.png", "source")
-        for command in ("merge", "a.gpkg"), ("preload", "http://127.0.0.1:1/{z}/{x}/{y}.png", "--levels", "0-1"):
-            self.assert_fails(WRONG_USAGE, *command, "-o", "cache.pmtiles", says=["-o", "cache.pmtiles", "terrella convert"])
 
     def test_grids_and_heights_are_kept_by_geopackages_and_folders(self):
         self.write("planet.png", png(256, 128))
