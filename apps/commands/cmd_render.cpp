@@ -230,8 +230,8 @@ int run_map_of(const CLI::App& sub, MapCommand& map, const RenderCommand& render
 }
 
 /// Renders a film, a map or a picture, as the command says.
-int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand& map) {
-  if (sub.count("--extent") > 0) return run_map_of(sub, map, film.render);
+int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand* map) {
+  if (map != nullptr && sub.count("--extent") > 0) return run_map_of(sub, *map, film.render);
   if (const Status named = check_picture_name(film.render.output); !named) {
     throw CLI::ValidationError("--output", named.error().message + ", or with --extent a map as .tif");
   }
@@ -246,23 +246,25 @@ int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand& map) {
   return run_film(film);
 }
 
-CLI::App& add_render_and_film(CLI::App& app, int& exit_code) {
+/// `map`: null for a command that writes no maps.
+CLI::App& add_render_and_film(CLI::App& app, int& exit_code, const std::shared_ptr<MapCommand>& map) {
   const auto film = std::make_shared<FilmCommand>();
-  const auto map = std::make_shared<MapCommand>();
   CLI::App& sub = add_render_options(app, film->render);
   add_film_options(sub, *film);
-  add_map_options(sub, *map);
+  if (map) add_map_options(sub, *map);
   sub.get_option("--output")->required()->get_validator(kPictureName)->active(false);
-  sub.callback([film, map, &sub, &exit_code] { exit_code = run_as_said(sub, *film, *map); });
+  sub.callback([film, map, &sub, &exit_code] { exit_code = run_as_said(sub, *film, map.get()); });
   return sub;
 }
 
 }  // namespace
 
-void add_render_command(CLI::App& app, int& exit_code) { add_render_and_film(app, exit_code); }
+void add_render_command(CLI::App& app, int& exit_code) {
+  add_render_and_film(app, exit_code, std::make_shared<MapCommand>());
+}
 
 void add_film_command(CLI::App& app, int& exit_code) {
-  CLI::App& sub = add_render_and_film(app, exit_code);
+  CLI::App& sub = add_render_and_film(app, exit_code, nullptr);
   sub.description("Render a film of a flight, without display or GPU");
   sub.get_option("--flight")->required();
 }

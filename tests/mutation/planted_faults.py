@@ -108,7 +108,7 @@ FAULTS = [
     Fault("objects: a change of colour cuts an area anew", "engine/objects/layer_cuts.cpp",
           "if ((!fill || area.asked_fill) && (!outline || area.asked_outline)) return;", "",
           "facade_tests", "LivingObjects.OnlyAShape*"),
-    Fault("threads: a map that a further thread cannot open makes a transparent tile", "streaming/warp/warp_source.cpp",
+    Fault("threads: a map that a further thread cannot open makes a transparent tile", "streaming/warp/map/ground_map.cpp",
           "if (!opened) return TileFailure{MissingKind::failed,", "if (!opened) return TileFailure{MissingKind::blank,",
           "terrella_warp_tests", "MapsOfThreads.*"),
     Fault("caches: a span that does not decode is kept", "streaming/remote_tiff/span_fetcher.cpp",
