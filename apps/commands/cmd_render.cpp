@@ -233,7 +233,8 @@ int run_map_of(const CLI::App& sub, MapCommand& map, const RenderCommand& render
 int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand* map) {
   if (map != nullptr && sub.count("--extent") > 0) return run_map_of(sub, *map, film.render);
   if (const Status named = check_picture_name(film.render.output); !named) {
-    throw CLI::ValidationError("--output", named.error().message + ", or with --extent a map as .tif");
+    throw CLI::ValidationError("--output",
+                               named.error().message + (map != nullptr ? ", or with --extent a map as .tif" : ""));
   }
   if (film.flight.empty()) return run_render(film.render, nullptr);
   if (sub.count("--camera") > 0) {
