@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 
@@ -110,6 +111,13 @@ Status check_regular(const std::filesystem::path& path) {
   }
   if (!std::filesystem::is_other(status)) return Done{};
   return Error{fmt::format("{}: is a pipe, a device or a socket; save the picture as a file", path.string())};
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 }  // namespace terrella

@@ -34,6 +34,9 @@ struct FileError {
 /// reader then reports it.
 [[nodiscard]] Status check_regular(const std::filesystem::path& path);
 
+/// The ending of a file's name with its dot, in lower case: ".tif". thread: any
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
+
 /// Bytes as text. thread: any
 [[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

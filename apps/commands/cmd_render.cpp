@@ -49,10 +49,7 @@ void report(const RenderCommand& command, const Rendered& rendered) {
   }
   print_result("{}: {} tiles: {} loaded, {} missing\n", command.output, stats.tiles_wanted, got,
                stats.tiles_missing + stats.tiles_pending);
-  if (!rendered.attributions.empty()) {
-    print_result("{}: thanks to {}\n", command.output,
-                 one_line(fmt::format("{}", fmt::join(rendered.attributions, "; "))));
-  }
+  thank(command.output, fmt::format("{}", fmt::join(rendered.attributions, "; ")));
   if (heights_without(stats) > 0) {
     print_result("{}: {} tiles of heights missing\n", command.output, heights_without(stats));
   }
@@ -222,7 +219,8 @@ int run_map_of(const CLI::App& sub, MapCommand& map, const RenderCommand& render
   map.render = render;
   // The system is the map's; a picture that needs one is cut first.
   const std::string said = std::exchange(map.render.scene.base.place.crs, {});
-  map.crs = stated_crs(said) ? *stated_crs(said) : said;
+  const auto named = stated_crs(said);
+  map.crs = named ? *named : said;
   if (const Status together = check_together(map); !together) {
     throw CLI::ValidationError("render", together.error().message);
   }

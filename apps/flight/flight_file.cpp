@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/flight/tour_flight.h"
+#include "base/number.h"
 #include "sky/almanac.h"
 #include "streaming/objects/vector/kml_file.h"
 #include "streaming/preload/geojson_text.h"

@@ -138,9 +138,7 @@ bool is_picture(const fs::path& path) {
   if (picture_kind(path) != PictureKind::none) return true;
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return false;
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   constexpr std::array kExtensions = {".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"};
   return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }

@@ -4,22 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 
 #include "apps/process/write_file.h"
 #include "codecs/png_codec.h"
+#include "streaming/file_bytes.h"
 
 namespace terrella {
-namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
-}  // namespace
 
 Status check_picture_name(const std::filesystem::path& path) {
   constexpr std::array kOthers = {".tif", ".tiff", ".webp", ".gif", ".bmp", ".svg", ".pdf", ".jp2", ".avif", ".heic"};

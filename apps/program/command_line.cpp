@@ -110,6 +110,10 @@ std::vector<std::string> reversed_arguments(const CLI::App& app, std::vector<std
 
 }  // namespace
 
+void thank(const std::string& output, const std::string& attributions) {
+  if (!attributions.empty()) print_result("{}: thanks to {}\n", output, one_line(attributions));
+}
+
 int fail(const char* command, const std::string& why) {
   print_message("terrella {}: {}\n", command, why);
   return kFailed;

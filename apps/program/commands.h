@@ -32,6 +32,8 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command);
 /// null, `image` gets the picture. thread: main
 int run_render(const RenderCommand& command, Image* image);
 
+/// Prints whose data an output shows; nothing for an empty text.
+void thank(const std::string& output, const std::string& attributions);
 /// Prints to standard error why a subcommand failed. Returns kFailed.
 int fail(const char* command, const std::string& why);
 

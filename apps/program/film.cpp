@@ -165,9 +165,7 @@ void report(const FilmCommand& command, const Film& film, double seconds) {
   }
   print_result("{}: {} frames: {} written, {} kept; {} tiles missing; {:.1f} s\n", output, film.frames(), tally.written,
                tally.kept, tally.tiles_missing + tally.heights_missing, seconds);
-  if (!tally.attributions.empty()) {
-    print_result("{}: thanks to {}\n", output, one_line(fmt::format("{}", fmt::join(tally.attributions, "; "))));
-  }
+  thank(output, fmt::format("{}", fmt::join(tally.attributions, "; ")));
 }
 
 /// Exit code of a film that ended without an error.

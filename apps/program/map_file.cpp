@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -21,7 +20,9 @@
 #include "apps/process/stop_signals.h"
 #include "apps/process/write_file.h"
 #include "apps/program/commands.h"
-#include "streaming/georeference/crs.h"
+#include "base/number.h"
+#include "streaming/cut/halve.h"
+#include "streaming/file_bytes.h"
 #include "streaming/raster/gdal/write_geotiff.h"
 #include "streaming/raster/in_parallel.h"
 #include "streaming/warp/flat_map.h"
@@ -210,8 +211,8 @@ bool tell_of_left_out(const OpenedScene& scene, const std::vector<MapLayer>& lay
 }
 
 void report(const MapCommand& command, const FlatMap& map, const MapDrawing& drawing) {
-  const CrsBounds extent{map.west, map.north - map.height_px * map.unit_per_px,
-                         map.west + map.width_px * map.unit_per_px, map.north};
+  const CrsPoint corner = map.to_crs().at(map.width_px, map.height_px);
+  const CrsBounds extent{map.west, corner.y, corner.x, map.north};
   if (command.render.json) {
     const nlohmann::json result = {{"output", command.render.output},
                                    {"width_px", map.width_px},
@@ -228,10 +229,7 @@ void report(const MapCommand& command, const FlatMap& map, const MapDrawing& dra
   print_result("{}: {}x{} pixels of {:.6g} units of {}, from {:.9g},{:.9g} to {:.9g},{:.9g}\n", command.render.output,
                map.width_px, map.height_px, map.unit_per_px, one_line(map.crs), extent.west, extent.south, extent.east,
                extent.north);
-  if (!drawing.attributions.empty()) {
-    print_result("{}: thanks to {}\n", command.render.output,
-                 one_line(fmt::format("{}", fmt::join(drawing.attributions, "; "))));
-  }
+  thank(command.render.output, fmt::format("{}", fmt::join(drawing.attributions, "; ")));
 }
 
 bool is_empty(const Image& image) {
@@ -271,9 +269,10 @@ Result<int> write_map(const MapCommand& command) {
                        "of --crs, easting first"};
   }
   if (const Status may = may_write_picture(output, inputs); !may) return may.error();
-  const Affine to_crs{map.west, map.unit_per_px, 0.0, map.north, 0.0, -map.unit_per_px};
   const std::string thanks = fmt::format("{}", fmt::join(drawing.attributions, "; "));
-  if (const Status written = write_geotiff(output, drawing.image, map.crs, to_crs, thanks); !written) {
+  if (const Status written =
+          write_geotiff(output, {drawing.image, !are_opaque(drawing.image.rgba)}, map.crs, map.to_crs(), thanks);
+      !written) {
     return written.error();
   }
   const bool left_out = tell_of_left_out(scene, *layers) || !scene.left_out.empty() || rasters_left_out() > 0;
@@ -294,8 +293,7 @@ Status check_together(const MapCommand& command) {
       extent.west >= extent.east || extent.south >= extent.north) {
     return Error{"--extent: it takes WEST < EAST and SOUTH < NORTH, in the units of --crs"};
   }
-  std::string extension = std::filesystem::path(command.render.output).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = lower_extension(command.render.output);
   if (extension == ".tif" || extension == ".tiff") return Done{};
   return Error{"--output: a map of --extent is a GeoTIFF; name a file that ends in .tif"};
 }

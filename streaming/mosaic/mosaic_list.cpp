@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxListBytes = 64UL << 20;
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 bool is_tiff_name(const fs::path& path) {
   const std::string extension = lower_extension(path);
   return extension == ".tif" || extension == ".tiff";

@@ -28,14 +28,7 @@ constexpr CrsPoint kNoPixel{std::numeric_limits<double>::infinity(), std::numeri
 RasterInfo raster_of(const FlatMap& map) {
   RasterInfo info;
   info.crs = map.crs;
-  info.levels.push_back({.width_px = map.width_px,
-                         .height_px = map.height_px,
-                         .to_crs = {.x0 = map.west,
-                                    .x_per_column = map.unit_per_px,
-                                    .x_per_row = 0.0,
-                                    .y0 = map.north,
-                                    .y_per_column = 0.0,
-                                    .y_per_row = -map.unit_per_px}});
+  info.levels.push_back({.width_px = map.width_px, .height_px = map.height_px, .to_crs = map.to_crs()});
   return info;
 }
 

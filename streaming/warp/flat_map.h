@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "geo/body.h"
+#include "streaming/georeference/georeference.h"
 #include "streaming/warp/block.h"
 #include "tiles/tile_source.h"
 
@@ -20,6 +21,8 @@ struct FlatMap {
   double unit_per_px = 1.0;  ///< side of a pixel, in units of `crs`; > 0
   int width_px = 0;          ///< > 0
   int height_px = 0;         ///< > 0
+  /// From pixels to coordinates of `crs`.
+  [[nodiscard]] Affine to_crs() const { return {west, unit_per_px, 0.0, north, 0.0, -unit_per_px}; }
 };
 
 /// Makes the pixels of a flat map from the tiles of one set, block by block, as warp_source() makes tiles from a

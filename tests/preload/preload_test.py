@@ -1,7 +1,9 @@
 """Shared parts of the tests of `terrella preload`."""
 
 import json
+import pathlib
 import sqlite3
+import tempfile
 
 import servers
 from program import ProgramTest
@@ -34,3 +36,18 @@ class PreloadTest(ProgramTest):
     def assert_stored_are_right(self):
         for place, data in self.stored().items():
             self.assertEqual(data, servers.tile_file(*place).read_bytes(), place)
+
+
+class PyramidTest(PreloadTest):
+    """The tests of a class share a pyramid of LEVELS levels; each has an nginx of its own that serves it."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="terrella-preload-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.pyramid = pathlib.Path(folder.name) / "tiles"
+        servers.write_pyramid(cls.pyramid, cls.LEVELS)
+
+    def setUp(self):
+        super().setUp()
+        self.server = self.enterContext(servers.nginx(self.pyramid))

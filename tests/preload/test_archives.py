@@ -7,13 +7,12 @@ import random
 import signal
 import sqlite3
 import subprocess
-import tempfile
 import time
 import unittest
 
 import pmtiles
 import servers
-from preload_test import PreloadTest
+from preload_test import PyramidTest
 from program import DONE, DONE_IN_PART, FAILED, NATURAL_EARTH, PROGRAM, WRONG_USAGE
 
 LEVELS = 6
@@ -32,17 +31,8 @@ def tiles_of(path):
     return {(z, x, (1 << z) - 1 - y): data for z, x, y, data in found}
 
 
-class Archives(PreloadTest):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="terrella-preload-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.pyramid = pathlib.Path(folder.name) / "tiles"
-        servers.write_pyramid(cls.pyramid, LEVELS)
-
-    def setUp(self):
-        super().setUp()
-        self.server = self.enterContext(servers.nginx(self.pyramid))
+class Archives(PyramidTest):
+    LEVELS = LEVELS
 
     def bring(self, kind, *options, folder="out", template=None, words=WEB, **run):
         """Preloads into FOLDER/web.KIND; the name of a set that has none is that of its file."""

@@ -2,34 +2,23 @@
 
 import json
 import os
-import pathlib
 import random
 import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
 import servers
-from preload_test import PreloadTest
+from preload_test import PreloadTest, PyramidTest
 from program import DONE, DONE_IN_PART, FAILED, PROGRAM, WRONG_USAGE
 
 LEVELS = 5
 KILLS = int(os.environ.get("TERRELLA_KILLS", "20"))
 
 
-class Nginx(PreloadTest):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="terrella-preload-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.pyramid = pathlib.Path(folder.name) / "tiles"
-        servers.write_pyramid(cls.pyramid, LEVELS)
-
-    def setUp(self):
-        super().setUp()
-        self.server = self.enterContext(servers.nginx(self.pyramid))
+class Nginx(PyramidTest):
+    LEVELS = LEVELS
 
     def command(self, *options):
         return [PROGRAM, "preload", self.server.template, "-o", str(self.cache), "--levels", f"0-{LEVELS - 1}",

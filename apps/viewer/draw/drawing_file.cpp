@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
@@ -14,6 +12,7 @@
 #include "apps/process/write_file.h"
 #include "apps/viewer/draw/drawing_scene.h"
 #include "apps/viewer/draw/geojson_shape.h"
+#include "streaming/file_bytes.h"
 #include "streaming/objects/object_style.h"
 #include "streaming/objects/vector_objects.h"
 
@@ -96,12 +95,6 @@ void add_placemark(const DrawnMark& mark, pugi::xml_node document) {
   add_coordinates(shape.append_child("outerBoundaryIs").append_child("LinearRing"), ring_positions(mark.places));
 }
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return ending;
-}
-
 }  // namespace
 
 std::string drawing_geojson(const Drawing& drawing) {
@@ -128,7 +121,7 @@ std::string drawing_kml(const Drawing& drawing) {
 }
 
 Status save_drawing(const std::filesystem::path& file, const Drawing& drawing) {
-  const std::string ending = lower_ending(file);
+  const std::string ending = lower_extension(file);
   if (ending != ".kml" && ending != ".geojson" && ending != ".json") {
     return Error{file.string() + ": end the name in .geojson, .json or .kml, which says the format"};
   }

@@ -22,12 +22,6 @@ namespace {
 
 constexpr std::size_t kGeoJsonHead = 4096;
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
 // Tells GeoJSON from source descriptions, as both end in .json; only GeoJSON names its type.
 bool is_geojson(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <memory>
 #include <pugixml.hpp>
 
@@ -30,8 +29,7 @@ std::string document_of(const std::vector<std::string>& names) {
 }  // namespace
 
 bool is_kml_name(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_extension(path);
   return ending == ".kml" || ending == ".kmz";
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "streaming/file_bytes.h"
 #include "streaming/objects/vector/ground_overlays.h"
 #include "streaming/objects/vector/kml_check.h"
 #include "streaming/objects/vector_objects.h"
@@ -32,16 +33,10 @@ constexpr std::array<std::pair<std::string_view, const char*>, 14> kVectorDriver
                                                                                    {".tsv", "CSV"},
                                                                                    {".zip", kShapefile}}};
 
-std::string lower_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 bool holds_shapefile(const fs::path& folder) {
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
-    if (lower_ending(entry->path()) == ".shp") return true;
+    if (lower_extension(entry->path()) == ".shp") return true;
   }
   return false;
 }
@@ -111,7 +106,7 @@ bool links_to_pictures(const fs::path& path) {
 GdalSettings::Settings vector_settings() { return {{"LIBKML_EXTERNAL_STYLE", "NO"}, {"LIBKML_RESOLVE_STYLE", "YES"}}; }
 
 bool is_zip_name(const fs::path& path) {
-  const std::string ending = lower_ending(path);
+  const std::string ending = lower_extension(path);
   return ending == ".zip" || ending == ".shz" || ending == ".kmz";
 }
 
@@ -119,7 +114,7 @@ const char* vector_driver_of(const fs::path& path) {
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) return holds_shapefile(path) ? kShapefile : nullptr;
   const auto* const found =
-      std::ranges::find(kVectorDrivers, lower_ending(path), [](const auto& one) { return std::string(one.first); });
+      std::ranges::find(kVectorDrivers, lower_extension(path), [](const auto& one) { return std::string(one.first); });
   return found == kVectorDrivers.end() ? nullptr : found->second;
 }
 
@@ -129,7 +124,7 @@ Status check_vector_length(const fs::path& path) {
   const std::uint64_t bytes = fs::file_size(path, problem);
   if (problem) return Error{problem.message()};
   const bool is_zip = is_zip_name(path);
-  const std::uint64_t most = lower_ending(path) == ".kml" ? kMaxVectorUnpackedBytes : kMaxObjectFileBytes;
+  const std::uint64_t most = lower_extension(path) == ".kml" ? kMaxVectorUnpackedBytes : kMaxObjectFileBytes;
   if (bytes > most) return Error{fmt::format("{} bytes are more than the {} that are read; divide it", bytes, most)};
   if (!is_zip) return Done{};
   const auto unpacked = unpacked_bytes("/vsizip/" + path.string());

@@ -23,21 +23,15 @@ struct DestroySystem {
   void operator()(void* system) const { gdal().OSRDestroySpatialReference(system); }
 };
 
-bool is_opaque(const Image& image) {
-  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) {
-    if (image.rgba[alpha] != 255) return false;
-  }
-  return true;
-}
-
 /// A dataset over the picture's own bytes.
-WrittenDataset dataset_over(const Image& image) {
+WrittenDataset dataset_over(const WrittenPicture& picture) {
+  const Image& image = picture.image;
   const GdalApi& api = gdal();
   WrittenDataset dataset(
       api.GDALCreate(api.GDALGetDriverByName("MEM"), "", image.width_px, image.height_px, 0, GDT_Byte, nullptr));
   if (!dataset) return dataset;
   constexpr std::array kMeanings = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
-  const int bands = is_opaque(image) ? 3 : 4;
+  const int bands = picture.with_alpha ? 4 : 3;
   for (int band = 0; band < bands; ++band) {
     const std::string at = fmt::format("DATAPOINTER={}", static_cast<const void*>(image.rgba.data() + band));
     const std::string line = fmt::format("LINEOFFSET={}", 4 * static_cast<std::int64_t>(image.width_px));
@@ -63,10 +57,10 @@ bool place_it(void* dataset, const std::string& crs, const Affine& to_crs) {
 }
 
 /// Writes the file under another name. False if GDAL has reported an error.
-bool write_part(const std::filesystem::path& part, const Image& image, const std::string& crs, const Affine& to_crs,
-                const std::string& attribution) {
+bool write_part(const std::filesystem::path& part, const WrittenPicture& picture, const std::string& crs,
+                const Affine& to_crs, const std::string& attribution) {
   const GdalApi& api = gdal();
-  const WrittenDataset dataset = dataset_over(image);
+  const WrittenDataset dataset = dataset_over(picture);
   if (!dataset || !place_it(dataset.get(), crs, to_crs)) return false;
   if (!attribution.empty()) {
     api.GDALSetMetadataItem(dataset.get(), "TIFFTAG_COPYRIGHT", attribution.c_str(), nullptr);
@@ -80,7 +74,7 @@ bool write_part(const std::filesystem::path& part, const Image& image, const std
 
 }  // namespace
 
-Status write_geotiff(const std::filesystem::path& path, const Image& image, const std::string& crs,
+Status write_geotiff(const std::filesystem::path& path, const WrittenPicture& picture, const std::string& crs,
                      const Affine& to_crs, const std::string& attribution) {
   if (const auto loaded = load_gdal(); !loaded) return Error{path.string() + ": " + loaded.error().message};
   std::error_code failed;
@@ -89,7 +83,7 @@ Status write_geotiff(const std::filesystem::path& path, const Image& image, cons
   }
   const std::filesystem::path part = fmt::format("{}.{}.part", path.string(), getpid());
   const GdalMessages messages;
-  const bool done = write_part(part, image, crs, to_crs, attribution) && messages.error().empty();
+  const bool done = write_part(part, picture, crs, to_crs, attribution) && messages.error().empty();
   failed.clear();
   if (done) std::filesystem::rename(part, path, failed);
   if (done && !failed) return Done{};
