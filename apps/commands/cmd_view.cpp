@@ -43,7 +43,7 @@ constexpr const char* kHelpFooter =
     "Mouse: drag to move the ground, turn the wheel to zoom to the cursor, right-drag or Ctrl + drag to tilt and\n"
     "turn, double-click to fly there. Drop files onto the window, or press Ctrl + O, to add layers.\n"
     "Keys: arrows, + and - move; N north up, Home whole globe, R reset, G graticule, C map, F full screen,\n"
-    "/ search, M measure, D draw, E add data, W body, L layers, J project, P settings panel, U translucent,\n"
+    "/ search, M measure, D draw, E add data, W body, L layers, J project, Y flight, P settings, U translucent,\n"
     "X under the ground, B sky, T play the time, S stereo, I and F12 save pictures, 1 to 9 fly to bookmarks,\n"
     "F1 or ? shortcuts, Esc twice quits.\n"
     "\n"
@@ -69,6 +69,7 @@ struct ViewOptions {
   std::string message;
   bool restored = false;            ///< the scene is that of the last session
   bool hold_session = false;        ///< ViewerOptions::hold_session
+  std::string flight;               ///< file of a flight to play; empty: none
   std::vector<SourceOptions> open;  ///< files and addresses that become layers
 };
 
@@ -264,6 +265,7 @@ Result<Explored> explore(Window& window, const ViewOptions& options) {
                                      .units = options.units.value_or(options.kept.units),
                                      .hold_session = options.hold_session,
                                      .first_run = options.first_run,
+                                     .flight = options.flight,
                                      .message = first_message(options, *scene),
                                      .open = options.open};
   Viewer viewer(window, *scene->globe, viewer_options);
@@ -309,6 +311,7 @@ Result<ViewOptions> next_options(const ViewOptions& options, const NextScene& wa
   next.first_run = false;
   next.restored = next.hold_session = false;
   next.message.clear();
+  next.flight.clear();
   next.open = wanted.layers;
   if (const auto file = settings_file()) next.kept = load_settings(*file).settings;
   if (!wanted.project.empty()) {
@@ -384,6 +387,8 @@ void add_view_command(CLI::App& app, int& exit_code) {
                     "Print where panels and labels are, as JSON, to standard output each time this changes");
   command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
+  command->add_option("--flight", options->flight, "Flight to play with Y: GeoJSON, or the tours of a KML file")
+      ->type_name("FILE");
   add_units_option(*command, options->units)->default_str("those of the last start, at first metric");
   command->footer(kHelpFooter);
   options->scene.surface.inner_sphere_srgb = kInnerSphere_srgb;

@@ -14,28 +14,20 @@ constexpr double kMostFrames = 1e6;
 
 Result<FilmPlan> FilmPlan::make(std::vector<FlightPath> paths, double fps) {
   FilmPlan plan(std::move(paths), fps);
-  double duration_s = 0.0;
-  for (const FlightPath& path : plan.paths_) duration_s += path.duration_s();
-  const double frames = std::round(duration_s * fps);
+  const double lasts_s = duration_s(plan.paths_);
+  const double frames = std::round(lasts_s * fps);
   if (!(frames <= kMostFrames)) {
     return Error{
         fmt::format("the flight lasts {:.6g} s, which is {:.0f} frames; a film has at most {:.0f}: give it a shorter "
                     "duration_s, or "
                     "fewer --fps",
-                    duration_s, frames, kMostFrames)};
+                    lasts_s, frames, kMostFrames)};
   }
   plan.frames_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(frames));
   return plan;
 }
 
-FlightMoment FilmPlan::moment(std::int64_t frame) const {
-  double time_s = static_cast<double>(frame) / fps_;
-  for (const FlightPath& path : paths_) {
-    if (time_s < path.duration_s() || &path == &paths_.back()) return path.at(time_s);
-    time_s -= path.duration_s();
-  }
-  return {};
-}
+FlightMoment FilmPlan::moment(std::int64_t frame) const { return moment_at(paths_, static_cast<double>(frame) / fps_); }
 
 std::optional<UtcTime> FilmPlan::first_sun() const {
   for (const FlightPath& path : paths_) {

@@ -42,6 +42,20 @@ double log_height(const Camera& camera) { return std::log(std::max(camera.eye.he
 
 glm::dvec3 eye_normal(const Camera& camera) { return Ellipsoid::normal(camera.eye.lat, camera.eye.lon).xyz; }
 
+double duration_s(std::span<const FlightPath> flights) {
+  double sum_s = 0.0;
+  for (const FlightPath& flight : flights) sum_s += flight.duration_s();
+  return sum_s;
+}
+
+FlightMoment moment_at(std::span<const FlightPath> flights, double time_s) {
+  for (const FlightPath& flight : flights.first(flights.size() - 1)) {
+    if (time_s < flight.duration_s()) return flight.at(time_s);
+    time_s -= flight.duration_s();
+  }
+  return flights.back().at(time_s);
+}
+
 std::vector<double> even_pace(const std::vector<FlightMoment>& keyframes) {
   std::vector<double> times{0.0};
   times.reserve(keyframes.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/flight/eye_way.h"
@@ -48,6 +49,11 @@ class FlightPath {
   UtcTime first_sun_{};
   std::vector<std::optional<PolarSection>> polar_;
 };
+
+// Flights one after the other, at least one.
+[[nodiscard]] double duration_s(std::span<const FlightPath> flights);
+/// The moment at a time. Outside the flights' times it is their first or last moment.
+[[nodiscard]] FlightMoment moment_at(std::span<const FlightPath> flights, double time_s);
 
 /// Seconds at which an eye passes keyframes at an even pace, from 0 on: 4 s for a way as long as the eye is high, for a
 /// height that changes by a factor of 2.7, or for a turn by a radian. Ways are as long as on the Earth.

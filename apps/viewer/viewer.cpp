@@ -51,6 +51,10 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   input_.set_dragger(
       [this](DragStep step, glm::dvec2 at_px) { return swipe_.drag(step, at_px) || draw_.drag(step, at_px); });
   draw_.restore(options.scene);
+  for (const LayerRow& row : options.layers) {
+    if (row.kind == LayerKind::objects) flights_.look_into(row.objects.file);
+  }
+  if (!options.flight.empty()) flights_.open(options.flight);
 }
 
 std::optional<NextScene> Viewer::run() {
@@ -66,6 +70,7 @@ std::optional<NextScene> Viewer::run() {
     if ((dirty || ui_.has_waiting()) && panels) panel_frames_ = kPanelFrames;
     modes_.play().advance(Input::now());
     timeline_.advance();
+    flights_.advance(Input::now());
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -257,8 +262,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 14> newest{&question_, &pictures_,  &profile_, &timeline_,  &search_, &open_,   &projects_,
-                                &body_,     &catalogue_, &list_,    &bookmarks_, &draw_,   &layers_, &modes_};
+  std::array<Panel*, 15> newest{&question_,  &pictures_, &profile_, &timeline_,  &search_, &open_,   &projects_, &body_,
+                                &catalogue_, &list_,     &flights_, &bookmarks_, &draw_,   &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

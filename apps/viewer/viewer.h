@@ -14,6 +14,7 @@
 #include "apps/viewer/catalogue/catalogue_panel.h"
 #include "apps/viewer/draw/draw.h"
 #include "apps/viewer/feature_list/feature_list.h"
+#include "apps/viewer/flights/flights.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
@@ -56,6 +57,7 @@ struct ViewerOptions {
   LengthUnits units = LengthUnits::metric;
   bool hold_session = false;             ///< the kept session stays as it is until the scene changes
   bool first_run = false;                ///< true: show a hint
+  std::string flight = {};               ///< file of a flight to play; empty: none
   std::string message = {};              ///< first message; may be empty
   std::vector<SourceOptions> open = {};  ///< files and addresses that become layers
 };
@@ -173,6 +175,15 @@ class Viewer {
                      .chosen = [this](LayerId layer) { return balloon_.chosen_of(layer); },
                      .choose = [this](LayerId layer, const ListedFeature& one) { balloon_.choose(layer, one); },
                      .fly = [this] { balloon_.fly_there(); }}};
+  Flights flights_{context_,
+                   {.bookmarks = [this] { return bookmarks_.views(); },
+                    .scene =
+                        [this] {
+                          SceneOptions now = scene();
+                          now.drawings = draw_.text();
+                          return now;
+                        },
+                    .opening = [this] { return !layers_.job().empty(); }}};
   Cutting cutting_;
   PlaceMenu menu_{context_,
                   actions(),
@@ -184,9 +195,9 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 20> parts_{&help_, &menu_,      &question_,  &pictures_, &search_,  &open_,    &projects_,
+  const std::array<Part*, 21> parts_{&help_, &menu_,      &question_,  &pictures_, &search_,  &open_,    &projects_,
                                      &body_, &catalogue_, &bookmarks_, &list_,     &balloon_, &profile_, &timeline_,
-                                     &draw_, &layers_,    &modes_,     &measure_,  &cutting_, &map_};
+                                     &draw_, &flights_,   &layers_,    &modes_,    &measure_, &cutting_, &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

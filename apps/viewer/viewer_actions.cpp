@@ -255,6 +255,7 @@ constinit const Action Viewer::kActions[] = {
     {"K", "bookmarks: fly, name, sort, delete", [](V v) { v.bookmarks_.toggle(); }, U"k"},
     {.keys = "1 ... 9", .what = "fly to a bookmark", .mouse = "bookmarks"},
     {.keys = "Ctrl + 1 ... 9", .what = "save the view as a bookmark", .mouse = "menu"},
+    {"Y", "flight: bookmarks and tours, film", [](V v) { v.flights_.toggle(); }, U"y"},
     {"P", "view settings", [](V v) { v.modes_.toggle(); }, U"p"},
     {"L", "layers: show, opacity, order, remove", [](V v) { v.layers_.toggle(); }, U"l", 0, 0, 0, "Layers"},
     {.keys = "Ctrl + O",

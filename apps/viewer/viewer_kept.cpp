@@ -44,9 +44,11 @@ SceneOptions Viewer::scene() const {
   return now;
 }
 
-// A project replaces the scene; any other file becomes a layer.
+// A project replaces the scene; any other file becomes a layer, and its tours become flights.
 void Viewer::open_file(const std::filesystem::path& file) {
-  is_project(file.string()) ? projects_.open(file) : layers_.open({.address = file.string()});
+  if (is_project(file.string())) return projects_.open(file);
+  layers_.open({.address = file.string()});
+  flights_.look_into(file);
 }
 
 // False, with a message, if drawings or files that are being opened would be lost.

@@ -50,6 +50,11 @@ void Navigator::set_camera(const Camera& camera) {
   motion_ = Rest{};
 }
 
+void Navigator::lead(const Camera& camera) {
+  set_camera(camera);
+  motion_ = Led{};
+}
+
 void Navigator::set_ground(const Ground& ground) {
   ground_ = ground;
   stay_over_ground();

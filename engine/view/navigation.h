@@ -63,6 +63,10 @@ class Navigator {
   void key(NavigationKey key, Seconds now);
   /// Starts a flight to `camera` (view/flight.h). A camera with a value out of range is ignored.
   void fly_to(const Camera& camera, Seconds now);
+  /// Puts the camera at the next place of a motion that the caller leads, until set_camera() or a gesture ends it. A
+  /// camera with a value out of range is ignored.
+  void lead(const Camera& camera);
+  [[nodiscard]] bool is_led() const { return std::holds_alternative<Led>(motion_); }
   /// Advances flights, glides and zooms to `now`. Call this once per frame while animating().
   void advance(Seconds now);
 
@@ -75,6 +79,7 @@ class Navigator {
 
  private:
   struct Rest {};
+  struct Led {};
   struct Sample {
     glm::dvec2 at_px;
     Seconds when;
@@ -115,7 +120,7 @@ class Navigator {
     Angle from;
     Seconds turned{0.0};
   };
-  using Motion = std::variant<Rest, Drag, Turn, Glide, Zoom, Pan, Fly, TurnNorth>;
+  using Motion = std::variant<Rest, Drag, Turn, Glide, Zoom, Pan, Fly, TurnNorth, Led>;
 
   [[nodiscard]] const Ellipsoid& body() const { return ground_.ellipsoid(); }
   [[nodiscard]] double lowest_m(const Geodetic& place) const;
@@ -141,6 +146,7 @@ class Navigator {
   void turn_to(const Turn& turn, glm::dvec2 at_px);
 
   [[nodiscard]] Motion go_on(Rest rest, Seconds passed);
+  [[nodiscard]] Motion go_on(Led led, Seconds passed);
   [[nodiscard]] Motion go_on(Drag drag, Seconds passed);
   [[nodiscard]] Motion go_on(Turn turn, Seconds passed);
   [[nodiscard]] Motion go_on(Glide glide, Seconds passed);

@@ -93,6 +93,7 @@ Orbit Navigator::over_ground(Orbit orbit, Angle fov_y) const {
 }
 
 Navigator::Motion Navigator::go_on(Rest rest, Seconds) { return rest; }
+Navigator::Motion Navigator::go_on(Led led, Seconds) { return led; }
 Navigator::Motion Navigator::go_on(Drag drag, Seconds) { return drag; }
 Navigator::Motion Navigator::go_on(Turn turn, Seconds) { return turn; }
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/film/film_plan.h"
 #include "apps/flight/flight_file.h"
+#include "apps/flight/flight_text.h"
 
 namespace terrella {
 namespace {
@@ -132,6 +134,29 @@ TEST(FilmPlan, FramesLastAsLongAsTheFlights) {
   EXPECT_NEAR(plan->moment(20).camera.eye.lon.deg(), 5.0, kRounding);
   EXPECT_EQ(FilmPlan::make({path_of("[[0,0,1000]]", "{}")}, 30.0)->frames(), 1);
   EXPECT_FALSE(FilmPlan::make({path_of("[[0,0,1000],[1,0,1000]]", R"({"duration_s":1e6})")}, 30.0));
+}
+
+// Angles are written in degrees, heights and times as they are.
+TEST(FlightPath, IsReadAgainAsItWasWritten) {
+  const std::vector<FlightPath> flights = {
+      path_of("[[170,-20,1000],[-150,40,500000],[-100,80,3000]]",
+              R"({"times_s":[0,4,5.5],"headings":[10,350,-200],"pitches":[-90,-20,5],"fov":25,"opacities":[1,0.5,0],
+                  "times":["2026-06-21T08:00Z","2026-06-21T12:00:00.25Z","2026-06-21T16:00Z"]})"),
+      path_of("[[0,0,1000],[1,0,2000]]", R"({"duration_s":3})")};
+  const auto read = parse_flight(flight_text(flights), "written");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(duration_s(*read), 8.5);
+  for (double time_s = 0.0; time_s <= 9.0; time_s += 0.25) {
+    const FlightMoment was = moment_at(flights, time_s), is = moment_at(*read, time_s);
+    EXPECT_LT(glm::distance(eye_normal(is.camera), eye_normal(was.camera)), kRounding) << time_s;
+    EXPECT_NEAR(is.camera.eye.height_m, was.camera.eye.height_m, kRounding * was.camera.eye.height_m) << time_s;
+    EXPECT_NEAR(std::remainder(is.camera.heading.deg() - was.camera.heading.deg(), 360.0), 0.0, 1e-7) << time_s;
+    EXPECT_NEAR(is.camera.pitch.deg(), was.camera.pitch.deg(), kRounding * 90.0) << time_s;
+    EXPECT_NEAR(is.camera.fov_y.deg(), was.camera.fov_y.deg(), kRounding) << time_s;
+    EXPECT_EQ(is.surface_alpha.has_value(), was.surface_alpha.has_value());
+    EXPECT_NEAR(is.surface_alpha.value_or(0.0), was.surface_alpha.value_or(0.0), kRounding);
+    EXPECT_EQ(is.sun, was.sun);
+  }
 }
 
 }  // namespace

@@ -378,5 +378,25 @@ TEST(Flights, CentreOnKeepsTheHeight) {
   EXPECT_NEAR(hand.navigator.camera().eye.height_m, 3.0e5, 1.0);
 }
 
+TEST(Led, LastsUntilTheUserMovesTheGlobe) {
+  Hand hand(camera_at(46.0, 7.0, 3.0e5));
+  Navigator& navigator = hand.navigator;
+  for (const double lon : {8.0, 9.0}) {
+    navigator.lead(camera_at(46.0, lon, 3.0e5));
+    navigator.advance(hand.now += Seconds(kFrame_s));
+    EXPECT_EQ(navigator.camera(), camera_at(46.0, lon, 3.0e5));
+    EXPECT_TRUE(navigator.is_led() && navigator.animating() && !navigator.at_rest());
+  }
+  navigator.wheel(kCentre, 1.0, hand.now);
+  EXPECT_FALSE(navigator.is_led());
+  hand.settle();
+  navigator.lead(camera_at(46.0, 7.0, 3.0e5));
+  hand.drag({300.0, 300.0}, {400.0, 300.0});
+  EXPECT_TRUE(!navigator.is_led() && navigator.at_rest());
+  navigator.lead(camera_at(46.0, 7.0, 3.0e5));
+  navigator.set_camera(camera_at(46.0, 7.0, 3.0e5));
+  EXPECT_TRUE(!navigator.is_led() && navigator.at_rest());
+}
+
 }  // namespace
 }  // namespace terrella::test

@@ -207,7 +207,7 @@ class Walk(WindowTest):
         simple = {
             "graticule": "g", "map: coastlines, borders and names": "c", "view settings": "p",
             "layers: show, opacity, order, remove": "l",
-            "bookmarks: fly, name, sort, delete": "k", "translucent surface": "u",
+            "bookmarks: fly, name, sort, delete": "k", "flight: bookmarks and tours, film": "y", "translucent surface": "u",
             "swipe: compare layers at a line": "v", "body: Earth, Moon, planets": "w",
             "measure: start, end": "m", "draw: place marks, lines, areas": "d",
         }

@@ -1,11 +1,9 @@
 #include "apps/open_scene/project/write_project.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +11,7 @@
 #include "apps/open_scene/options/place_options.h"
 #include "apps/open_scene/project/project_paths.h"
 #include "apps/open_scene/project/project_words.h"
+#include "base/iso_time.h"
 #include "streaming/objects/object_style.h"
 #include "streaming/sets/elevation_json.h"
 
@@ -43,12 +42,6 @@ std::string body_text(const Body& body) {
   const auto named = std::ranges::find(presets, body.name, &Body::name);
   if (named != presets.end() && same(*named)) return named->name;
   return fmt::format("{},{}", body.ellipsoid.a_m(), body.ellipsoid.f());
-}
-
-std::string time_text(UtcTime time) {
-  const auto second = std::chrono::floor<std::chrono::seconds>(time);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
-                     (time - second).count());
 }
 
 std::string color_text(const glm::vec3& srgb) {
@@ -87,7 +80,7 @@ void put_drawing(OrderedJson& json, const SceneOptions& scene) {
 
 void put_sky(OrderedJson& json, const SceneOptions& scene) {
   if (!scene.sky) json["sky"] = "off";
-  if (scene.time) json["time"] = time_text(*scene.time);
+  if (scene.time) json["time"] = time_text(*scene.time, TimePrecision::millisecond, true);
   if (!scene.night_lights) json["night-lights"] = "off";
   put_word(json, "stereo", scene.stereo.mode, Stereo::off, stereo_words());
   if (scene.stereo.eye_separation_m) json["eye-separation"] = *scene.stereo.eye_separation_m;

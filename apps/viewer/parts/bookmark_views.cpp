@@ -27,6 +27,14 @@ void BookmarkViews::fly_to(int number) {
   say(fmt::format("Bookmark {0} is empty; Ctrl + {0} saves the view", number));
 }
 
+std::vector<Camera> BookmarkViews::views() {
+  std::vector<Camera> views;
+  if (!load()) return views;
+  views.reserve(bookmarks_.all().size());
+  for (const auto& [number, bookmark] : bookmarks_.all()) views.push_back(bookmark.camera);
+  return views;
+}
+
 void BookmarkViews::save(int number) {
   if (!load()) return;
   bookmarks_.set(number, context_.navigator.camera(), place_shown_());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/viewer/panels/bookmark_panel.h"
 #include "apps/viewer/parts/part.h"
@@ -21,7 +22,8 @@ class BookmarkViews : public Panel {
   // `number` in [1, Bookmarks::kMost].
   void fly_to(int number);
   void save(int number);
-  void save_as_next();  ///< saves the view under the lowest free number
+  [[nodiscard]] std::vector<Camera> views();  ///< all views, in the order of their numbers
+  void save_as_next();                        ///< saves the view under the lowest free number
 
  private:
   bool can_open() override { return load(); }

@@ -1,0 +1,95 @@
+#include "apps/viewer/flights/film_job.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace terrella {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kLog = "film.log";
+
+/// The number in "rendering film.mp4: 30 %", the report of the program's progress; nothing in another line.
+std::optional<int> percent_in(const std::string& line) {
+  constexpr std::string_view kUnit = " %";
+  const std::size_t colon = line.rfind(": ");
+  if (!line.starts_with("rendering ") || !line.ends_with(kUnit) || colon == std::string::npos) return std::nullopt;
+  int percent = 0;
+  const char* end = line.data() + line.size() - kUnit.size();
+  const auto read = std::from_chars(line.data() + colon + 2, end, percent);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(percent) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FilmJob>> FilmJob::start(const fs::path& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"terrella", "render"});
+  std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  const std::string log = (folder / kLog).string();
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644);
+  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  std::unique_ptr<FilmJob> job(new FilmJob(folder));
+  const int refused = posix_spawn(&job->pid_, "/proc/self/exe", &files, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (refused == 0) return job;
+  job->pid_ = 0;
+  return Error{
+      fmt::format("{}: no film can be started: {}", folder.string(), std::generic_category().message(refused))};
+}
+
+FilmJob::~FilmJob() {
+  if (pid_ == 0) return;
+  kill(pid_, SIGTERM);
+  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::vector<std::string> FilmJob::messages() const {
+  std::vector<std::string> lines;
+  std::ifstream log(folder_ / kLog);
+  for (std::string line; std::getline(log, line);) lines.push_back(line);
+  return lines;
+}
+
+int FilmJob::percent() const {
+  int percent = 0;
+  for (const std::string& line : messages()) percent = std::max(percent, percent_in(line).value_or(0));
+  return percent;
+}
+
+bool FilmJob::has_ended() const {
+  siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0;
+}
+
+Status FilmJob::end() {
+  int state = 0;
+  while (waitpid(pid_, &state, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = 0;
+  if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return Done{};
+  std::vector<std::string> said = messages();
+  std::erase_if(said, [](const std::string& line) { return line.empty() || percent_in(line); });
+  return Error{said.empty() ? folder_.string() + ": the film ended without a message" : said.back()};
+}
+
+}  // namespace terrella
