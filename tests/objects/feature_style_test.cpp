@@ -198,7 +198,7 @@ TEST(FeatureStyle, NamesOfFontsHaveWeightsAndSlants) {
     return std::pair{read_look.weight, read_look.slanted};
   };
   EXPECT_EQ(look(R"("Open Sans Bold")"), std::pair(TextWeight::bold, false));
-  EXPECT_EQ(look(R"(["match",["get","pop"],60,"Sans Semibold Italic","Sans"])"), std::pair(TextWeight::bold, true));
+  EXPECT_EQ(look(R"(["match",["get","pop"],75,"Sans Semibold Italic","Sans"])"), std::pair(TextWeight::bold, true));
   EXPECT_EQ(look(R"(["Roboto Thin"])"), std::pair(TextWeight::light, false));
   EXPECT_EQ(look(R"("DejaVu Sans")"), std::pair(TextWeight::regular, false));
   EXPECT_FALSE(FeatureStyle::parse(R"({"text-font":["sum",1]})", "style"));

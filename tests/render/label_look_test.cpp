@@ -159,6 +159,8 @@ TEST_F(LabelLookTest, LettersHaveRoomBetweenThem) {
     return letters(draw_label("HHH", {.text_px = 20.0F, .letter_spacing_em = spacing_em}));
   };
   const Ink close = ink_of(0.0F), wide = ink_of(0.5F);
+  const LabelBox box = shown_labels_.labels.at(0).box;
+  EXPECT_NEAR(box.high_px.x, float(wide.right), 3.0) << "the room that the label takes";
   EXPECT_EQ(wide.left, close.left);
   EXPECT_NEAR(wide.right - close.right, 2 * 0.5 * 20.0, 1.0);
   EXPECT_EQ(wide.pixels, close.pixels);
@@ -194,7 +196,7 @@ TEST_F(LabelLookTest, WeightsHaveMoreInkInTheSamePlace) {
 
 TEST_F(LabelLookTest, BoldLettersHaveMoreRoomUnlessTheyAreJoined) {
   const auto width_px = [this](const std::string& text, TextWeight weight) {
-    draw_label(text, {.text_px = 40.0F, .weight = weight});
+    draw_label(text, {.text_px = 40.0F, .anchor = TextAnchor::center, .weight = weight});
     const LabelBox& box = shown_labels_.labels.at(0).box;
     return box.high_px.x - box.low_px.x;
   };

@@ -29,10 +29,10 @@ constexpr double kBig = 8.0e6;             // people of a city whose name is bol
 constexpr double kCharacter_em = 0.6;      // mean width of a capital letter
 constexpr double kCountryShare = 0.5;      // a country's name is at most twice as wide as the country
 constexpr double kSeaShare = 1.0;          // a sea's name is at most as wide as the sea
-constexpr double kOceanShare = 0.5;
-constexpr double kOcean_km2 = 1.0e7;
-constexpr float kPlace_px = 13.0F;
-constexpr double kCountryRank = 1.0e6;  // rank of a km², so that all but the smallest countries come before places
+constexpr double kOceanShare = 0.5;        // the same for an ocean
+constexpr double kOcean_km2 = 1.0e7;       // least area of an ocean
+constexpr float kPlace_px = 13.0F;         // size of the names of places
+constexpr double kCountryRank = 1.0e6;     // rank of a km², so that all but the smallest countries come before places
 
 std::string mapped(std::string_view text, int how) {
   utf8proc_uint8_t* bytes = nullptr;
@@ -87,7 +87,7 @@ constexpr std::array<AreaLook, 4> kSeaLooks{
 
 /// A dark halo that fades, legible on snow too.
 LabelLook faded(float text_px) {
-  return {.text_px = text_px, .halo = {0, 0, 0, 210}, .halo_px = 2.4F, .halo_blur_px = 1.6F};
+  return {.text_px = text_px, .halo = {0, 0, 0, 230}, .halo_px = 2.6F, .halo_blur_px = 1.6F};
 }
 
 /// Countries are written in upright capitals; seas are slanted, and oceans thin and in capitals too.

@@ -12,8 +12,7 @@
 
 namespace terrella {
 
-/// The effort of drawing. A picture in motion has coarser lines without edges, which
-/// costs a third of the time.
+/// The effort of drawing. A picture in motion has coarser lines without edges, which costs a third of the time.
 enum class MapDetail { full, in_motion };
 
 /// Draws a map over the globe, under the panels, within a frame of Dear ImGui. `unit_px`: framebuffer pixels per unit
