@@ -149,6 +149,9 @@ enum class TextAnchor : std::uint8_t {
 
 inline constexpr float kLeastText_px = 6.0F, kMostText_px = 64.0F, kMostHalo_px = 8.0F;
 
+/// Thickness of the strokes of letters. All fonts have all weights, because strokes are made thicker or thinner.
+enum class TextWeight : std::uint8_t { light, regular, bold };
+
 /// The look of a label's text beside its colour.
 struct LabelLook {
   float text_px = 15.0F;           ///< size of the font, kLeastText_px to kMostText_px; drawn at whole pixels
@@ -156,6 +159,9 @@ struct LabelLook {
   float halo_px = 1.4F;            ///< reach of the halo past the letters, 0 (none) to kMostHalo_px; in 0.2 px steps
   TextAnchor anchor = TextAnchor::left;  ///< near the limb of a globe, texts beside a marker turn to its other side
   float letter_spacing_em = 0.0F;        ///< 0 to 1 of the font's size; scripts with joined letters keep 0
+  TextWeight weight = TextWeight::regular;
+  bool slanted = false;       ///< letters lean to the right, as names of waters do on maps
+  float halo_blur_px = 0.0F;  ///< the halo fades over this width at its outer end, 0 to kMostHalo_px; in 0.2 px steps
   bool operator==(const LabelLook&) const = default;
 };
 

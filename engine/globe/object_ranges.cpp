@@ -73,6 +73,8 @@ Status check_look(const LabelLook& look) {
       .in("the width of its halo", look.halo_px, 0.0, kMostHalo_px, " px")
       .known("its anchor", look.anchor, TextAnchor::bottom_right)
       .in("its letter spacing", look.letter_spacing_em, 0.0, 1.0, " em")
+      .in("the blur of its halo", look.halo_blur_px, 0.0, kMostHalo_px, " px")
+      .known("its weight", look.weight, TextWeight::bold)
       .result();
 }
 

@@ -14,7 +14,7 @@ using glm::dvec2, glm::dvec3;
 
 constexpr double kSteepest = 0.12;  // sine of the angle at which ground with names is seen, at least
 constexpr double kPicturePerName_px = 15000.0;
-constexpr double kGap_px = 5.0;        // between a dot and its text
+constexpr double kGap_px = 6.0;        // between a dot and its text
 constexpr double kDot_px = 3.5;        // radius
 constexpr double kMargin_px = 3.0;     // around a text
 constexpr double kNewMargin_px = 9.0;  // around a text that was not in the last picture
@@ -94,7 +94,8 @@ std::vector<ShownName> MapLabels::place(const View& view, const Ground& ground, 
   for (const Candidate& candidate : candidates(view, ground, page.scale)) {
     if (shown.size() >= most) break;
     if (page.moves && wait_[candidate.name] > 0) continue;
-    const dvec2 size = page.size_px(names_[candidate.name].text);
+    const dvec2 size = page.size_px(names_[candidate.name]);
+    if (size.x <= 0.0) continue;
     const bool is_new = shown_[candidate.name] == Side::hidden;
     const glm::vec2 margin(dvec2(page.scale * (is_new ? kNewMargin_px : kMargin_px)));
     for (const Side side : sides(candidate.name)) {

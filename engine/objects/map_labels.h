@@ -21,6 +21,8 @@ struct MapName {
   double rank = 0.0;      ///< > 0; the higher rank gets the room
   double widest_m = 0.0;  ///< shown where a pixel covers at most this many metres, at 96 dots per inch
   bool is_area = false;   ///< the text is centred; else it stands beside a dot
+  ObjectColor color{255, 255, 255};
+  LabelLook look = {};  ///< at 96 dots per inch
 };
 
 /// A name in a picture, pixels.
@@ -32,10 +34,10 @@ struct ShownName {
 
 /// Texts and other boxes of a picture, as labels are placed around them.
 struct LabelPage {
-  bool moves = false;                                          ///< the camera is in motion
-  double scale = 1.0;                                          ///< pixels of a unit at 96 dots per inch
-  std::function<glm::dvec2(const std::string&)> size_px = {};  ///< measures a text
-  std::vector<LabelBox> taken = {};                            ///< boxes that stay free of names
+  bool moves = false;                                      ///< the camera is in motion
+  double scale = 1.0;                                      ///< pixels of a unit at 96 dots per inch
+  std::function<glm::dvec2(const MapName&)> size_px = {};  ///< measures a text; 0: a name that cannot be written
+  std::vector<LabelBox> taken = {};                        ///< boxes that stay free of names
 };
 
 /// Chooses the names of a map that a picture shows: the highest ranks first, without overlaps. A name of the last

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -134,6 +135,20 @@ class StyleReader {
     return std::nullopt;
   }
 
+  /// Weight and slant by the words in a font's name, as MapLibre's styles have it. The first font of a list counts.
+  void font(LabelLook& look) const {
+    const json* value = find("text-font");
+    if (value != nullptr && value->is_array() && !value->empty()) value = &value->front();
+    if (value == nullptr) return;
+    if (!value->is_string()) return complain_("\"text-font\" must be a font's name, such as Noto Sans Bold Italic");
+    std::string name = value->get<std::string>();
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto has = [&name](const char* word) { return name.find(word) != std::string::npos; };
+    if (has("light") || has("thin")) look.weight = TextWeight::light;
+    if (has("bold") || has("black") || has("heavy")) look.weight = TextWeight::bold;
+    look.slanted = has("italic") || has("oblique");
+  }
+
   /// An instant of ISO 8601, also a year or a month alone, or with the slashes of GDAL; or milliseconds since 1970.
   std::optional<UtcTime> instant(const char* name) const {
     constexpr double kMost_ms = 2.5e14;  // the year 9892
@@ -210,10 +225,14 @@ void read_text(const StyleReader& reader, LabelObject& label) {
   }
   look.halo = reader.color("text-halo-color").value_or(look.halo);
   if (const auto width = reader.number("text-halo-width", 0.0, kMostHalo_px)) look.halo_px = static_cast<float>(*width);
+  if (const auto blur = reader.number("text-halo-blur", 0.0, kMostHalo_px)) {
+    look.halo_blur_px = static_cast<float>(*blur);
+  }
   look.anchor = reader.anchor("text-anchor").value_or(look.anchor);
   if (const auto spacing = reader.number("text-letter-spacing", 0.0, 1.0)) {
     look.letter_spacing_em = static_cast<float>(*spacing);
   }
+  reader.font(look);
 }
 
 /// Reads when a feature is shown. Bounds in the wrong order would hide it for ever.

@@ -46,6 +46,8 @@ constexpr std::array kProperties = {"altitude-mode",
                                     "stroke-opacity",
                                     "text-anchor",
                                     "text-color",
+                                    "text-font",
+                                    "text-halo-blur",
                                     "text-halo-color",
                                     "text-halo-width",
                                     "text-letter-spacing",
@@ -212,10 +214,14 @@ Result<FeatureStyle> FeatureStyle::parse(std::string_view text, const std::strin
           fmt::format("{}: unknown property {}; there are {}", where, in_quotes(name), fmt::join(kProperties, ", "))};
     }
     if (properties.contains(known)) return Error{fmt::format("{}: {} is there twice", where, in_quotes(known))};
-    if (const std::string fault = fault_of(value); !fault.empty()) {
+    const std::string fault = fault_of(value);
+    // The names of fonts look like an expression that does not exist. The first one counts.
+    const bool is_list_of_fonts = known == "text-font" && fault.starts_with("unknown expression") &&
+                                  std::ranges::all_of(value, [](const json& one) { return one.is_string(); });
+    if (!fault.empty() && !is_list_of_fonts) {
       return Error{fmt::format("{}: {}: {}", where, in_quotes(name), fault)};
     }
-    properties[known] = value;
+    properties[known] = is_list_of_fonts ? value.front() : value;
   }
   FeatureStyle style;
   style.rules_ = std::make_shared<const Rules>(Rules{std::move(properties)});

@@ -56,6 +56,21 @@ class MapTest(ProgramTest):
                 same = sum(difference(off, on, x, y) == 0 for x in ring for y in ring)
                 self.assertGreater(same, BESIDE_LINE_PX**2)
 
+    def test_the_name_of_a_sea_is_spaced_and_slanted(self):
+        """The Philippine Sea, without coasts near its name's place: the left edge of its P leans to the right."""
+        row = MAP["seas"]["name"].index("Philippine Sea")
+        look = ["--unlit", "--size", "400x300"]
+        view = ["--camera", f"{MAP['seas']['lat'][row]},{MAP['seas']['lon'][row]},3000000"]
+        off, on = (png.read(self.picture(f"{word}.png", *view, "--map", word, look=look)) for word in ("off", "on"))
+        names = range(400 // 2 - 90, 400 // 2 + 90)
+        rows = [[x for x in names if difference(off, on, x, y) > 90] for y in range(150 - 12, 150 + 12)]
+        inked = [row for row in rows if row]
+        letters = sorted({x for row in inked for x in row})
+        self.assertGreater(letters[-1] - letters[0], 7 * len("Philippine Sea") + 20)
+        self.assertLess(letters[-1] - letters[0], 11 * len("Philippine Sea") + 20)
+        self.assertAlmostEqual(0.5 * (letters[0] + letters[-1]), 200, delta=8)
+        self.assertGreater(min(inked[2]), min(inked[9]))
+
     def test_what_is_drawn_is_credited(self):
         told = [json.loads(self.assert_done("render", "-o", "m.png", *LOOK, "--json", *more).stdout)["attributions"]
                 for more in (["--map", "on"], [])]

@@ -166,26 +166,42 @@ TEST(FeatureStyle, AnotherStyleByEditsIsThatOfReadingAgain) {
 
 TEST(FeatureStyle, TextsHaveSizesColoursHalosAnchorsAndSpacing) {
   const FeatureStyle style = style_of(R"({"text-size":["step",["get","pop"],10,60,31.5],"text-color":"#123456",
-    "text-halo-color":"#fff","text-halo-width":2.5,"text-anchor":"bottom-right","text-letter-spacing":0.2})");
+    "text-halo-color":"#fff","text-halo-width":2.5,"text-anchor":"bottom-right","text-letter-spacing":0.2,
+    "text-font":["Noto Sans Light Oblique","Arial Bold"],"text-halo-blur":1.2})");
   const ObjectFile file = read(style);
   EXPECT_TRUE(file.complaints.empty());
   const LabelObject& label = file.scene.labels.at(0);
   EXPECT_EQ(label.color, (ObjectColor{0x12, 0x34, 0x56}));
-  EXPECT_EQ(label.look, (LabelLook{31.5F, {255, 255, 255}, 2.5F, TextAnchor::bottom_right, 0.2F}));
+  EXPECT_EQ(label.look,
+            (LabelLook{31.5F, {255, 255, 255}, 2.5F, TextAnchor::bottom_right, 0.2F, TextWeight::light, true, 1.2F}));
   const ObjectFile plain = read({});
   EXPECT_EQ(plain.scene.labels.at(0).look, LabelLook{});
   const ObjectChange change = restyled(features_of(plain.scene), style).changes.at(2);
   EXPECT_EQ(change.look, label.look);
   EXPECT_EQ(change.label, label.color);
   const ObjectFile faulty = read(style_of(R"({"text-size":5,"text-color":"ink","text-halo-color":1,"text-halo-width":9,
-    "text-anchor":"middle","text-letter-spacing":-0.1})"));
+    "text-anchor":"middle","text-letter-spacing":-0.1,"text-font":7,"text-halo-blur":-1})"));
   EXPECT_EQ(faulty.scene.labels.at(0).look, LabelLook{});
   for (const char* cure :
        {"\"text-size\" must be a number from 6 to 64", "\"text-color\" is not a colour",
         "\"text-halo-color\" is not a colour", "\"text-halo-width\" must be a number from 0 to 8",
-        "\"text-anchor\" must be center, left", "\"text-letter-spacing\" must be a number from 0 to 1"}) {
+        "\"text-anchor\" must be center, left", "\"text-letter-spacing\" must be a number from 0 to 1",
+        "\"text-font\" must be a font's name, such as Noto Sans Bold",
+        "\"text-halo-blur\" must be a number from 0 to 8"}) {
     EXPECT_THAT(faulty.complaints, testing::Contains(HasSubstr(cure)));
   }
+}
+
+TEST(FeatureStyle, NamesOfFontsHaveWeightsAndSlants) {
+  const auto look = [](const std::string& font) {
+    const LabelLook read_look = read(style_of(R"({"text-font":)" + font + "}")).scene.labels.at(0).look;
+    return std::pair{read_look.weight, read_look.slanted};
+  };
+  EXPECT_EQ(look(R"("Open Sans Bold")"), std::pair(TextWeight::bold, false));
+  EXPECT_EQ(look(R"(["match",["get","pop"],75,"Sans Semibold Italic","Sans"])"), std::pair(TextWeight::bold, true));
+  EXPECT_EQ(look(R"(["Roboto Thin"])"), std::pair(TextWeight::light, false));
+  EXPECT_EQ(look(R"("DejaVu Sans")"), std::pair(TextWeight::regular, false));
+  EXPECT_FALSE(FeatureStyle::parse(R"({"text-font":["sum",1]})", "style"));
 }
 
 TEST(FeatureStyle, ValuesBelongToTheFeaturesOfTheirNumbers) {

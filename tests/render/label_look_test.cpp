@@ -159,9 +159,80 @@ TEST_F(LabelLookTest, LettersHaveRoomBetweenThem) {
     return letters(draw_label("HHH", {.text_px = 20.0F, .letter_spacing_em = spacing_em}));
   };
   const Ink close = ink_of(0.0F), wide = ink_of(0.5F);
+  const LabelBox box = shown_labels_.labels.at(0).box;
+  EXPECT_NEAR(box.high_px.x, float(wide.right), 3.0) << "the room that the label takes";
   EXPECT_EQ(wide.left, close.left);
   EXPECT_NEAR(wide.right - close.right, 2 * 0.5 * 20.0, 1.0);
   EXPECT_EQ(wide.pixels, close.pixels);
+}
+
+/// The opacity of all letters together, in whole pixels.
+double ink_of(const ObjectPicture& picture) {
+  double sum = 0.0;
+  for (int y = 0; y < picture.size.height_px; ++y) {
+    for (int x = 0; x < picture.size.width_px; ++x) sum += picture.at(x, y).alpha / 255.0;
+  }
+  return sum;
+}
+
+TEST_F(LabelLookTest, WeightsHaveMoreInkInTheSamePlace) {
+  for (const std::string text : {"HHH", "illi", "\u0633\u0644\u0627\u0645"}) {
+    for (const float text_px : {12.0F, 30.0F}) {
+      const auto drawn = [&](TextWeight weight) {
+        return draw_label(text, {.text_px = text_px, .halo_px = 0.0F, .anchor = TextAnchor::center, .weight = weight});
+      };
+      const ObjectPicture light = drawn(TextWeight::light), bold = drawn(TextWeight::bold);
+      const ObjectPicture regular = drawn(TextWeight::regular);
+      const double truth = ink_of(regular);
+      EXPECT_GT(ink_of(bold), 1.3 * truth) << text << " at " << text_px;
+      EXPECT_LT(ink_of(bold), 1.9 * truth) << text << " at " << text_px;
+      EXPECT_LT(ink_of(light), 0.9 * truth) << text << " at " << text_px;
+      EXPECT_GT(ink_of(light), 0.5 * truth) << text << " at " << text_px;
+      EXPECT_NEAR(letters(bold).middle().x, letters(regular).middle().x, 1.5) << text << " at " << text_px;
+      EXPECT_NEAR(letters(bold).middle().y, letters(regular).middle().y, 1.0) << text << " at " << text_px;
+    }
+  }
+}
+
+TEST_F(LabelLookTest, BoldLettersHaveMoreRoomUnlessTheyAreJoined) {
+  const auto width_px = [this](const std::string& text, TextWeight weight) {
+    draw_label(text, {.text_px = 40.0F, .anchor = TextAnchor::center, .weight = weight});
+    const LabelBox& box = shown_labels_.labels.at(0).box;
+    return box.high_px.x - box.low_px.x;
+  };
+  EXPECT_FLOAT_EQ(width_px("HHHH", TextWeight::bold) - width_px("HHHH", TextWeight::regular), 3.0F * 2.0F);
+  const std::string arabic = "\u0633\u0644\u0627\u0645";
+  EXPECT_FLOAT_EQ(width_px(arabic, TextWeight::bold), width_px(arabic, TextWeight::regular));
+}
+
+TEST_F(LabelLookTest, SlantedLettersLeanToTheRightAroundTheirMiddle) {
+  const auto drawn = [this](const std::string& text, bool slanted) {
+    return letters(
+        draw_label(text, {.text_px = 60.0F, .halo_px = 0.0F, .anchor = TextAnchor::center, .slanted = slanted}));
+  };
+  const Ink upright = drawn("l", false), leaning = drawn("l", true);
+  const double high_px = upright.bottom - upright.top;
+  EXPECT_EQ(leaning.bottom - leaning.top, upright.bottom - upright.top);
+  EXPECT_NEAR(leaning.right - leaning.left, upright.right - upright.left + high_px * std::tan(0.2094), 1.5);
+  EXPECT_NEAR(leaning.middle().x, upright.middle().x, 1.5);
+}
+
+TEST_F(LabelLookTest, ABlurredHaloFadesWithinItsReach) {
+  const auto drawn = [this](float blur_px) {
+    return draw_label("I", {.text_px = 40.0F,
+                            .halo = {0, 0, 255},
+                            .halo_px = 6.0F,
+                            .anchor = TextAnchor::center,
+                            .halo_blur_px = blur_px});
+  };
+  const ObjectPicture hard = drawn(0.0F), soft = drawn(5.0F);
+  const int edge = letters(hard).left;
+  EXPECT_GT(soft.at(edge - 1, kMiddle_px).alpha, 200);
+  for (int x = edge - 5; x < edge - 1; ++x) {
+    EXPECT_GT(hard.at(x, kMiddle_px).alpha, 240) << edge - x;
+    EXPECT_LT(soft.at(x, kMiddle_px).alpha, soft.at(x + 1, kMiddle_px).alpha) << edge - x;
+  }
+  EXPECT_EQ(soft.at(edge - 8, kMiddle_px).alpha, 0);
 }
 
 TEST_F(LabelLookTest, TextsTurnAtTheLimbWhereverTheyAreAnchored) {

@@ -32,13 +32,13 @@ View seen_from(double lat, double lon, double height_m) {
   return make_view(camera, earth().ellipsoid, kPicture);
 }
 
-dvec2 size_of(const std::string& text) { return {kCharacter_px * double(text.size()), kLine_px}; }
+dvec2 size_of(const MapName& name) { return {kCharacter_px * double(name.text.size()), kLine_px}; }
 
 LabelPage page(std::vector<LabelBox> taken = {}) { return {.size_px = size_of, .taken = std::move(taken)}; }
 
 LabelBox box_of(const MapLabels& labels, const ShownName& shown) {
   const dvec2 low = shown.place_px + shown.text_px;
-  return {glm::vec2(low), glm::vec2(low + size_of(labels.names()[shown.name].text))};
+  return {glm::vec2(low), glm::vec2(low + size_of(labels.names()[shown.name]))};
 }
 
 bool overlap(const LabelBox& a, const LabelBox& b) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <span>
 
 #include "objects/object_pick.h"
 #include "view/stereo.h"
@@ -64,12 +63,10 @@ unsigned ink(const glm::vec3& color, int alpha) {
   return IM_COL32(static_cast<int>(color.x), static_cast<int>(color.y), static_cast<int>(color.z), alpha);
 }
 
-void shaded_text(ImDrawList* list, ImVec2 at, const char* text, unsigned ink, bool thin) {
+void shaded_text(ImDrawList* list, ImVec2 at, const char* text, unsigned ink) {
   constexpr ImU32 kShade = IM_COL32(0, 0, 0, 210);
-  static const ImVec2 kThick[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
-  for (const ImVec2 off : std::span(kThick).first(thin ? 4 : 8)) {
-    list->AddText({at.x + off.x, at.y + off.y}, kShade, text);
-  }
+  static const ImVec2 kOffsets[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+  for (const ImVec2 off : kOffsets) list->AddText({at.x + off.x, at.y + off.y}, kShade, text);
   list->AddText(at, ink, text);
 }
 

@@ -40,8 +40,8 @@ struct EyePart {
 [[nodiscard]] ImVec2 to_ui(glm::dvec2 px, double unit_px);
 /// Returns ImGui's form of `color`, 0 to 255.
 [[nodiscard]] unsigned ink(const glm::vec3& color, int alpha);
-/// Draws a text with a dark edge, which is legible on snow too. A thin edge costs half.
-void shaded_text(ImDrawList* list, ImVec2 at, const char* text, unsigned ink, bool thin = false);
+/// Draws a text with a dark edge, which is legible on snow too.
+void shaded_text(ImDrawList* list, ImVec2 at, const char* text, unsigned ink);
 /// Limits drawing to a part of the picture and to its channels, until end_part().
 void begin_part(ImDrawList* list, const PicturePart& part, double unit_px);
 void end_part(ImDrawList* list);

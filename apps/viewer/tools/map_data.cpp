@@ -3,6 +3,8 @@
 #include <utf8proc.h>
 
 #include <CLI/Error.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -19,12 +21,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostMapBytes = 8UL << 20;
+constexpr std::size_t kMostMapBytes = 8UL << 20, kMostFontBytes = 32UL << 20;
 constexpr double kPeoplePerMetre = 320.0;  // to be shown, a place has this many people for each metre of a pixel
 constexpr double kCapital = 4.0;           // a capital counts as a place with this many times its people
 constexpr double kPart = 0.1;              // the same for a part of a city
-constexpr double kCharacter_px = 9.0;      // mean width of a capital letter
-constexpr double kAreaShare = 0.5;         // a country's name is at most twice as wide as the country
+constexpr double kBig = 8.0e6;             // people of a city whose name is bold, as a capital's
+constexpr double kCharacter_em = 0.6;      // mean width of a capital letter
+constexpr double kCountryShare = 0.5;      // a country's name is at most twice as wide as the country
+constexpr double kSeaShare = 1.0;          // a sea's name is at most as wide as the sea
+constexpr double kOceanShare = 0.5;        // an ocean's name is at most twice as wide as the ocean
+constexpr double kOcean_km2 = 1.0e7;       // least area of an ocean
+constexpr float kPlace_px = 13.0F;         // size of the names of places
 constexpr double kCountryRank = 1.0e6;     // rank of a km², so that all but the smallest countries come before places
 
 std::string mapped(std::string_view text, int how) {
@@ -67,13 +74,41 @@ void add_lines(const Json& map, const char* field, MapLineKind kind, std::vector
   }
 }
 
-void add_countries(const Json& countries, std::vector<MapName>& names) {
-  for (const NamedPlace& country : countries_of(countries)) {
-    MapName name{.text = in_capitals(composed(country.name)), .place = country.place};
-    name.rank = kCountryRank * country.area_km2;
-    name.widest_m =
-        1000.0 * std::sqrt(country.area_km2) / (kAreaShare * kCharacter_px * double(code_points(name.text).size()));
+/// A name of an area is written larger and wider if the area is larger.
+struct AreaLook {
+  double least_km2;
+  float text_px;
+  float spacing_px;
+};
+constexpr std::array<AreaLook, 4> kCountryLooks{
+    {{3.0e6, 16.0F, 4.0F}, {5.0e5, 15.0F, 3.0F}, {5.0e4, 14.0F, 2.0F}, {0.0, 13.0F, 1.0F}}};
+constexpr std::array<AreaLook, 4> kSeaLooks{
+    {{kOcean_km2, 16.0F, 5.0F}, {1.0e6, 15.0F, 3.0F}, {1.5e5, 14.0F, 2.0F}, {0.0, 13.0F, 1.0F}}};
+
+/// A dark halo that fades, legible on snow too.
+LabelLook faded(float text_px) {
+  return {.text_px = text_px, .halo = {0, 0, 0, 230}, .halo_px = 2.6F, .halo_blur_px = 1.6F};
+}
+
+/// Countries are written in upright capitals; seas are slanted, and oceans thin and in capitals too.
+void add_areas(const Json& columns, bool are_seas, std::vector<MapName>& names) {
+  for (const NamedPlace& area : countries_of(columns)) {
+    const bool is_ocean = are_seas && area.area_km2 >= kOcean_km2;
+    const double share = is_ocean ? kOceanShare : are_seas ? kSeaShare : kCountryShare;
+    const auto& looks = are_seas ? kSeaLooks : kCountryLooks;
+    const AreaLook& of_size =
+        *std::ranges::find_if(looks, [&](const AreaLook& one) { return area.area_km2 >= one.least_km2; });
+    MapName name{.text = is_ocean || !are_seas ? in_capitals(composed(area.name)) : composed(area.name),
+                 .place = area.place};
+    name.rank = kCountryRank * area.area_km2;
     name.is_area = true;
+    name.color = are_seas ? ObjectColor{180, 214, 246} : ObjectColor{255, 236, 200};
+    name.look = faded(of_size.text_px);
+    name.look.letter_spacing_em = of_size.spacing_px / of_size.text_px;
+    name.look.slanted = are_seas;
+    if (is_ocean) name.look.weight = TextWeight::light;
+    const double letter_px = kCharacter_em * double(of_size.text_px) + double(of_size.spacing_px);
+    name.widest_m = 1000.0 * std::sqrt(area.area_km2) / (share * letter_px * double(code_points(name.text).size()));
     names.push_back(std::move(name));
   }
 }
@@ -87,7 +122,8 @@ Status add_map(const std::filesystem::path& file, MapData& data) {
   try {
     add_lines(*map, "coasts", MapLineKind::coast, data.lines);
     add_lines(*map, "borders", MapLineKind::border, data.lines);
-    add_countries(map->at("countries"), data.names);
+    add_areas(map->at("countries"), false, data.names);
+    add_areas(map->at("seas"), true, data.names);
     data.attributions.push_back(map->at("attribution").get<std::string>());
   } catch (const Json::exception& wrong) {
     return Error{file.string() + ": not a map: " + wrong.what()};
@@ -103,10 +139,14 @@ Status add_places(const std::filesystem::path& file, MapData& data) {
   for (const NamedPlace& place : gazetteer->places()) {
     const double people = place.people * (place.is_capital ? kCapital : place.is_part ? kPart : 1.0);
     rank *= 1.0 - 1e-6;
+    LabelLook look = faded(kPlace_px);
+    if (place.is_capital || place.people >= kBig) look.weight = TextWeight::bold;
     data.names.push_back({.text = composed(place.name),
                           .place = place.place,
                           .rank = people > 0.0 ? people : rank,
-                          .widest_m = people > 0.0 ? people / kPeoplePerMetre : HUGE_VAL});
+                          .widest_m = people > 0.0 ? people / kPeoplePerMetre : HUGE_VAL,
+                          .color = {236, 242, 248},
+                          .look = look});
   }
   return Done{};
 }
@@ -130,6 +170,9 @@ void check_map(const SceneOptions& options, const Body& body) {
 Result<MapData> load_map(const Body& body, const std::filesystem::path& places) {
   MapData data;
   try {
+    auto font = read_file(data_file("DejaVuSans.ttf"), kMostFontBytes);
+    if (!font) return Error{font.error().message};
+    data.font = *std::move(font);
     if (body.name == earth().name) {
       if (Status added = add_map(data_file("map.json"), data); !added) return added.error();
       if (places.empty()) data.attributions.emplace_back("GeoNames");

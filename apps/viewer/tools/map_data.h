@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,11 +14,12 @@
 
 namespace terrella {
 
-/// A map of a planet: its lines, and the names of its countries and places.
+/// A map of a planet: its lines, and the names of its countries, seas and places.
 struct MapData {
   std::vector<MapLine> lines;
   std::vector<MapName> names;
   std::vector<std::string> attributions;
+  std::vector<std::byte> font;  ///< bytes of the font file of the names
 };
 
 /// True if there is a map of this body: of the Earth, or of any body with a file of places.

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "apps/viewer/panels/over_globe.h"
-#include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
-#include "base/code_points.h"
 
 namespace terrella {
 namespace {
@@ -29,13 +28,7 @@ constexpr float kLeastCosine = -0.2F;
 
 const glm::vec3 kEdge(8.0F, 14.0F, 24.0F);
 const glm::vec3 kCoast(196.0F, 222.0F, 240.0F), kBorder(255.0F, 224.0F, 170.0F);
-const glm::vec3 kCountry(255.0F, 236.0F, 200.0F), kPlace(236.0F, 242.0F, 248.0F);
-
-bool font_has(const std::string& text) {
-  return std::ranges::all_of(code_points(text), [](char32_t letter) {
-    return letter <= 0xFFFF && ImGui::GetFont()->FindGlyphNoFallback(static_cast<ImWchar>(letter)) != nullptr;
-  });
-}
+const glm::vec3 kPlace(236.0F, 242.0F, 248.0F);
 
 double strength_at(double m_per_px) { return std::clamp(kFull_m / std::max(m_per_px, 1.0), kLeastStrength, 1.0); }
 
@@ -66,7 +59,8 @@ void draw_dot(ImDrawList* list, ImVec2 at) {
 MapPainter::MapPainter(MapData data, const Ellipsoid& ellipsoid)
     : ellipsoid_(ellipsoid),
       lines_(data.lines, ellipsoid),
-      names_(std::move(data.names)),
+      labels_(std::move(data.names), ellipsoid),
+      font_(std::move(data.font)),
       attributions_(std::move(data.attributions)) {}
 
 void MapPainter::draw_lines(const Globe& globe, const View& view, double unit_px, MapDetail detail) const {
@@ -95,55 +89,39 @@ void MapPainter::draw_lines(const Globe& globe, const View& view, double unit_px
   }
 }
 
-// A name with a letter that no font has is written without marks, or left out. The next frame has the other letters.
-void MapPainter::fit_to_fonts() {
-  std::vector<std::string> texts;
-  for (const MapName& name : names_) texts.push_back(panel_text(name.text));
-  if (letters_wait()) return;
-  std::vector<MapName> fitting;
-  for (std::size_t k = 0; k < names_.size(); ++k) {
-    MapName& name = names_[k];
-    name.text = font_has(texts[k]) ? std::move(texts[k]) : without_marks(name.text);
-    if (font_has(name.text)) fitting.push_back(std::move(name));
-  }
-  names_ = {};
-  labels_.emplace(std::move(fitting), ellipsoid_);
-}
-
 std::vector<UiBox> MapPainter::draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
                                           const std::vector<UiBox>& taken) {
-  if (!labels_) fit_to_fonts();
-  if (!labels_) return {};
+  if (!texts_) texts_ = MapTexts::create(std::exchange(font_, {}));
+  if (!texts_) return {};
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const Ground ground = globe.ground();
   const std::vector<EyePart> eyes = eye_parts(globe, view);
+  const double scale = unit_px * double(ImGui::GetFontSize() / kPlainText_px);
   LabelPage page{.moves = detail == MapDetail::in_motion,
-                 .scale = unit_px * double(ImGui::GetFontSize() / kPlainText_px),
-                 .size_px = [unit_px](const std::string& text) {
-                   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-                   return unit_px * glm::dvec2(size.x, size.y);
-                 }};
+                 .scale = scale,
+                 .size_px = [this, scale](const MapName& name) { return texts_->size_px(name, scale); }};
   for (const UiBox& box : taken) {
     page.taken.push_back(
         {glm::vec2(glm::dvec2(box.left, box.top) * unit_px), glm::vec2(glm::dvec2(box.right, box.bottom) * unit_px)});
   }
   // Both eyes see the same names.
-  const std::vector<ShownName> shown = labels_->place(eyes.front().view, ground, page);
+  std::vector<ShownName> shown;
+  texts_->with_room([&] { shown = labels_.place(eyes.front().view, ground, page); });
   std::vector<UiBox> boxes;
   for (const auto& [eye, part] : eyes) {
     begin_part(list, part, unit_px);
+    std::vector<MapText> texts;
     for (const ShownName& name : shown) {
-      const MapName& what = labels_->names()[name.name];
-      const auto px = labels_->place_px(name.name, eye, ground);
+      const MapName& what = labels_.names()[name.name];
+      const auto px = labels_.place_px(name.name, eye, ground);
       if (!px) continue;
-      const ImVec2 at = to_ui(glm::dvec2(part.left_px, 0) + *px, unit_px), text = to_ui(name.text_px, unit_px);
-      if (!what.is_area) draw_dot(list, at);
-      const ImVec2 from{std::round(at.x + text.x), std::round(at.y + text.y)};
-      const ImVec2 size = ImGui::CalcTextSize(what.text.c_str());
-      boxes.push_back({from.x, from.y, from.x + size.x, from.y + size.y});
-      shaded_text(list, from, what.text.c_str(), ink(what.is_area ? kCountry : kPlace, 255),
-                  detail == MapDetail::in_motion);
+      const glm::dvec2 at = glm::dvec2(part.left_px, 0) + *px, low = glm::round(at + name.text_px);
+      if (!what.is_area) draw_dot(list, to_ui(at, unit_px));
+      const glm::dvec2 from = low / unit_px, to = (low + page.size_px(what)) / unit_px;
+      boxes.push_back({from.x, from.y, to.x, to.y});
+      texts.push_back({&what, low});
     }
+    texts_->draw(list, texts, scale, unit_px);
     end_part(list);
   }
   return boxes;

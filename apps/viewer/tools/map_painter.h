@@ -1,17 +1,18 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/tools/map_data.h"
+#include "apps/viewer/tools/map_texts.h"
 #include "globe/globe.h"
 
 namespace terrella {
 
-/// The effort of drawing. A picture in motion has coarser lines without edges, and texts with thinner edges, which
-/// costs a third of the time.
+/// The effort of drawing. A picture in motion has coarser lines without edges, which costs a third of the time.
 enum class MapDetail { full, in_motion };
 
 /// Draws a map over the globe, under the panels, within a frame of Dear ImGui. `unit_px`: framebuffer pixels per unit
@@ -26,18 +27,15 @@ class MapPainter {
   std::vector<UiBox> draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
                                 const std::vector<UiBox>& taken);
   /// See MapLabels::forget_shown().
-  void forget_shown() {
-    if (labels_) labels_->forget_shown();
-  }
+  void forget_shown() { labels_.forget_shown(); }
   [[nodiscard]] const std::vector<std::string>& attributions() const { return attributions_; }
 
  private:
-  void fit_to_fonts();
-
   Ellipsoid ellipsoid_;
   MapLines lines_;
-  std::vector<MapName> names_;       ///< until fit_to_fonts()
-  std::optional<MapLabels> labels_;  ///< with texts in letters that fonts have
+  MapLabels labels_;
+  std::vector<std::byte> font_;      ///< until the first names are drawn
+  std::unique_ptr<MapTexts> texts_;  ///< null without a font
   std::vector<std::string> attributions_;
 };
 

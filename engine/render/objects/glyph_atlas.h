@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/result.h"
+#include "geo/objects.h"
 #include "render/gl/gl_handle.h"
 #include "text/text_shaper.h"
 
@@ -18,15 +19,22 @@ struct Glyph {
   short left = 0, top = 0;  ///< upper left corner, right of and above the origin
 };
 
-/// Size and halo of glyphs. Each pair of them has its own pictures.
+/// Looks of glyphs. Each look has its own pictures.
 struct GlyphLook {
   int text_px = 0;      ///< size of the font
   int halo_fifths = 0;  ///< reach of the halo past the ink, fifths of a pixel; 0: none
+  int blur_fifths = 0;  ///< width over which the halo fades at its end, fifths of a pixel
+  TextWeight weight = TextWeight::regular;
+  bool slanted = false;
   auto operator<=>(const GlyphLook&) const = default;
 };
 
 /// Returns the pixels by which a glyph's picture reaches past its ink, for the halo.
 [[nodiscard]] int halo_margin_px(const GlyphLook& look);
+/// Returns the pixels by which bold letters need more room than the font gives them.
+[[nodiscard]] float extra_room_px(const GlyphLook& look);
+/// Returns the pixels by which a slanted glyph lies to the right if its origin is raised.
+[[nodiscard]] float lean_px(const GlyphLook& look, float raised_px);
 
 /// The glyphs of fonts at some sizes. FreeType draws each into a texture when it is first requested: red is the covered
 /// fraction of the pixel, green the halo. thread: main
@@ -47,6 +55,7 @@ class GlyphAtlas {
   /// Makes the empty atlas twice as wide and high. False if the atlas is as large as it may be.
   [[nodiscard]] bool grow();
   [[nodiscard]] GLuint texture() const { return texture_.name(); }
+  [[nodiscard]] int side_px() const { return side_px_; }
 
  private:
   GlyphAtlas() = default;

@@ -14,11 +14,9 @@
 namespace terrella {
 namespace {
 
-constexpr int kFirstText_px = 15;
-constexpr float kLeastReach_px = 40.0F;     // reach of a text, up or down, for which labels are pulled towards the eye
-constexpr float kMargin_px = 2.0F;          // margin around a text that stays free
-constexpr std::size_t kMostLines = 10'000;  // texts that are kept
-constexpr float kLeastShare = 0.5F;         // least share of a place's depth at which its text lies
+constexpr float kLeastReach_px = 40.0F;  // reach of a text, up or down, for which labels are pulled towards the eye
+constexpr float kMargin_px = 2.0F;       // margin around a text that stays free
+constexpr float kLeastShare = 0.5F;      // least share of a place's depth at which its text lies
 constexpr GLint kLabelViewportUniform = 0;
 constexpr GLint kLabelBiasUniform = 1;
 
@@ -53,16 +51,9 @@ std::vector<std::uint32_t> ShownLabels::at(const LayerObjects& layer, glm::dvec2
 
 Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vector<std::byte> font) {
   std::unique_ptr<LabelPass> pass(new LabelPass);
-  auto shaper = TextShaper::create(std::move(font), kFirstText_px);
-  if (!shaper) return shaper.error();
-  pass->shaper_ = std::move(*shaper);
-  for (std::size_t size_px = std::size_t(kLeastText_px); size_px < pass->half_heights_px_.size(); ++size_px) {
-    pass->shaper_->set_size(static_cast<int>(size_px));
-    pass->half_heights_px_[size_px] = 0.5F * float(pass->shaper_->ascent_px() + pass->shaper_->descent_px());
-  }
-  auto atlas = GlyphAtlas::create();
-  if (!atlas) return atlas.error();
-  pass->atlas_ = std::move(*atlas);
+  auto lines = GlyphLines::create(std::move(font));
+  if (!lines) return lines.error();
+  pass->lines_ = *std::move(lines);
   if (Status s = build_into(pass->program_,
                             {{GL_VERTEX_SHADER, {"frame.glsl", "object_common.glsl", "object_label.vert"}},
                              {GL_FRAGMENT_SHADER, {"frame.glsl", "object_common.glsl", "object_label.frag"}}},
@@ -110,35 +101,6 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
   order_.resize(std::min(order_.size(), kMostLabels));
 }
 
-LabelPass::LineLook LabelPass::line_look(const LabelLook& look) {
-  constexpr float kFixed = 64.0F;
-  const auto text_px = static_cast<int>(std::lround(std::clamp(look.text_px, kLeastText_px, kMostText_px)));
-  const bool has_halo = look.halo.alpha > 0;
-  return {{text_px, has_halo ? static_cast<int>(std::lround(5.0F * look.halo_px)) : 0},
-          static_cast<int>(std::lround(kFixed * look.letter_spacing_em * float(text_px)))};
-}
-
-const LabelPass::Line& LabelPass::line_of(const std::u32string& text, const LineLook& look) {
-  const auto [found, is_new] = lines_[look].try_emplace(text);
-  Line& line = found->second;
-  if (!is_new) return line;
-  ++line_count_;
-  shaper_->set_size(look.glyphs.text_px);
-  const ShapedText shaped = shaper_->shape(text, float(look.spacing_64ths) / 64.0F);
-  line.width_px = shaped.width_px;
-  for (const ShapedGlyph& glyph : shaped.glyphs) {
-    line.glyphs.emplace_back(atlas_->glyph(*shaper_, glyph, look.glyphs), glm::vec2(glyph.x_px, glyph.y_px));
-  }
-  line.is_whole = !atlas_->is_full();
-  return line;
-}
-
-void LabelPass::forget_lines() {
-  lines_.clear();
-  line_count_ = 0;
-  atlas_->clear();
-}
-
 bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSight& sight) {
   if (!sight.shown || !label.visible) return false;
   const bool chosen = label.object.through_surface && sight.chosen_above_ground;
@@ -146,16 +108,10 @@ bool LabelPass::in_sight(const KeptLabel& label, const View& view, const LabelSi
   return !is_behind(label.place_m, view.eye.xyz_m, sight.hiding_half_axes_m);
 }
 
-// If the atlas is full of the letters of earlier frames, those of this frame get all of it, then a larger one.
 void LabelPass::place(const View& view, const LabelSight& sight, std::span<const DrawnLayer> layers,
                       ShownLabels& shown) {
   merge(layers);
-  if (line_count_ > kMostLines) forget_lines();
-  choose(view, sight, shown);
-  for (bool is_fresh = false; atlas_->is_full() && (!is_fresh || atlas_->grow()); is_fresh = true) {
-    forget_lines();
-    choose(view, sight, shown);
-  }
+  lines_->with_room([&] { choose(view, sight, shown); });
   std::vector<Character> all;
   for (std::size_t k = 0; k < characters_.size(); ++k) {
     first_[k] = all.size();
@@ -184,7 +140,7 @@ void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const LineLook look = line_look(label.object.look);
   const double away_m = glm::length(label.place_m - page.view.eye.xyz_m);
   const auto radius_px = static_cast<float>(label.object.radius_m / away_m * page.view.pixels_per_radian());
-  const float half_height_px = half_heights_px_[static_cast<std::size_t>(look.glyphs.text_px)];
+  const float half_height_px = lines_->half_height_px(look);
   const TextWay way =
       text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
   const int halo_px = halo_margin_px(look.glyphs);
@@ -192,7 +148,7 @@ void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const glm::vec2 begin = place + glm::vec2(way.near_px, way.down_px);
   // Most labels of a crowd have no room where their text begins, so their text need not be measured.
   if (!page.room.is_free({begin - up - margin, begin + up + margin})) return;
-  const Line& line = line_of(label.text, look);
+  const GlyphLine& line = lines_->line(label.text, look);
   if (!line.is_whole) return;
   const float left_px = left_edge_px(way, line.width_px, at_px, page);
   const glm::vec2 from = place + glm::vec2(left_px, way.down_px);
@@ -201,8 +157,7 @@ void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const bool over_ground = page.sight.limb != nullptr && !is_underground(label.object);
   const float share = over_ground ? share_before_ground(page.view, *page.sight.limb, label.place_m, text) : 1.0F;
   const float reach_px = std::max(kLeastReach_px, std::abs(way.down_px) + half_height_px);
-  // Centres a small letter vertically on the middle of the line.
-  const float baseline_px = -std::round(0.35F * float(look.glyphs.text_px)) - way.down_px;
+  const float baseline_px = -drop_px(look) - way.down_px;
   put(label, ref.layer->drawn(label.object.color, label), {line, halo_px, {left_px, baseline_px}, {share, reach_px}});
   page.shown.labels.push_back({ref.layer->serial(), ref.index, text});
 }
@@ -250,7 +205,7 @@ int LabelPass::draw(const ObjectDraw& draw, Viewport viewport) const {
   apply(draw.state.with(program_.name()));
   glVertexArrayVertexBuffer(array_.name(), 0, buffer_.name(), 0, sizeof(Character));
   glBindVertexArray(array_.name());
-  glBindTextureUnit(0, atlas_->texture());
+  glBindTextureUnit(0, lines_->texture());
   glBindSampler(0, 0);
   glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(to - from),
                                     static_cast<GLuint>(from));

@@ -1,15 +1,12 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <map>
 #include <memory>
 #include <set>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,10 +16,9 @@
 #include "objects/label_layout.h"
 #include "objects/object_batches.h"
 #include "render/gl/stream_buffer.h"
-#include "render/objects/glyph_atlas.h"
+#include "render/objects/glyph_lines.h"
 #include "render/objects/layer_buffers.h"
 #include "render/objects/object_common.h"
-#include "text/text_shaper.h"
 #include "view/render_modes.h"
 
 namespace terrella {
@@ -67,7 +63,7 @@ class LabelPass {
   /// Returns the draw calls made.
   [[nodiscard]] int draw(const ObjectDraw& draw, Viewport viewport) const;
   /// Letters of labels that no font has, so far.
-  [[nodiscard]] const std::set<char32_t>& without_font() const { return shaper_->without_font(); }
+  [[nodiscard]] const std::set<char32_t>& without_font() const { return lines_->without_font(); }
 
  private:
   struct Character {
@@ -79,20 +75,9 @@ class LabelPass {
     glm::vec2 depth_reach;
     glm::vec2 ink_halo;  ///< factors of the glyph's ink and halo, one of them 0
   };
-  /// The look of a line, which decides its glyphs and their places.
-  struct LineLook {
-    GlyphLook glyphs;
-    int spacing_64ths = 0;  ///< room between two letters, 1/64 px
-    auto operator<=>(const LineLook&) const = default;
-  };
-  struct Line {
-    std::vector<std::pair<Glyph, glm::vec2>> glyphs;  ///< glyphs, each with its origin, right of and above the pen
-    float width_px = 0.0F;
-    bool is_whole = true;  ///< the atlas had room for all glyphs
-  };
   /// A text that is shown.
   struct Shown {
-    const Line& line;
+    const GlyphLine& line;
     int halo_margin_px;
     glm::vec2 corner_px;  ///< beginning of its baseline, right of and above the place of its label
     glm::vec2 depth_reach;
@@ -112,9 +97,6 @@ class LabelPass {
 
   LabelPass() = default;
   void set_up_array();
-  [[nodiscard]] static LineLook line_look(const LabelLook& look);
-  [[nodiscard]] const Line& line_of(const std::u32string& text, const LineLook& look);
-  void forget_lines();
   [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
   void merge(std::span<const DrawnLayer> layers);
   void choose(const View& view, const LabelSight& sight, ShownLabels& shown);
@@ -124,12 +106,8 @@ class LabelPass {
 
   gl::Program program_;
   gl::VertexArray array_;
-  std::unique_ptr<TextShaper> shaper_;
-  std::unique_ptr<GlyphAtlas> atlas_;
-  std::map<LineLook, std::unordered_map<std::u32string, Line>> lines_;  ///< lines of texts that were shown
-  std::size_t line_count_ = 0;                                          ///< lines in lines_
-  std::array<float, std::size_t(kMostText_px) + 1> half_heights_px_{};  ///< half the height of a line, by size of text
-  std::vector<LabelRef> order_;                                         ///< labels in the order of placing
+  std::unique_ptr<GlyphLines> lines_;
+  std::vector<LabelRef> order_;                                  ///< labels in the order of placing
   std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
   StreamBuffer buffer_;
