@@ -28,13 +28,21 @@ Result<FilmPlan> FilmPlan::make(std::vector<FlightPath> paths, double fps) {
   return plan;
 }
 
-FlightMoment FilmPlan::moment(std::int64_t frame) const {
+FlightMoment FilmPlan::moment(std::int64_t frame, double later_s) const {
   double time_s = static_cast<double>(frame) / fps_;
   for (const FlightPath& path : paths_) {
-    if (time_s < path.duration_s() || &path == &paths_.back()) return path.at(time_s);
+    if (time_s < path.duration_s() || &path == &paths_.back()) return path.at(time_s + later_s);
     time_s -= path.duration_s();
   }
   return {};
+}
+
+std::vector<FlightMoment> FilmPlan::moments(std::int64_t frame, double shutter, int count) const {
+  if (shutter == 0.0) return {moment(frame)};
+  std::vector<FlightMoment> all;
+  all.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) all.push_back(moment(frame, ((k + 0.5) / count - 0.5) * shutter / fps_));
+  return all;
 }
 
 std::optional<UtcTime> FilmPlan::first_sun() const {

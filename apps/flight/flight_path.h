@@ -16,6 +16,7 @@ struct FlightMoment {
   Camera camera;
   std::optional<double> surface_alpha{};  ///< opacity of the surface, [0, 1]; none: as the scene has it
   std::optional<UtcTime> sun{};           ///< time of Sun and sky; none: as the scene has it
+  bool operator==(const FlightMoment&) const = default;
 };
 
 /// A flight of the eye through keyframes. The eye moves along an EyeWay. The logarithm of its height, pitch, opacity

@@ -56,10 +56,6 @@ Result<std::unique_ptr<LabelPass>> LabelPass::create(DepthMode depth, std::vecto
   auto shaper = TextShaper::create(std::move(font), kFirstText_px);
   if (!shaper) return shaper.error();
   pass->shaper_ = std::move(*shaper);
-  for (std::size_t size_px = std::size_t(kLeastText_px); size_px < pass->half_heights_px_.size(); ++size_px) {
-    pass->shaper_->set_size(static_cast<int>(size_px));
-    pass->half_heights_px_[size_px] = 0.5F * float(pass->shaper_->ascent_px() + pass->shaper_->descent_px());
-  }
   auto atlas = GlyphAtlas::create();
   if (!atlas) return atlas.error();
   pass->atlas_ = std::move(*atlas);
@@ -110,11 +106,19 @@ void LabelPass::merge(std::span<const DrawnLayer> layers) {
   order_.resize(std::min(order_.size(), kMostLabels));
 }
 
-LabelPass::LineLook LabelPass::line_look(const LabelLook& look) {
+float LabelPass::half_height_px(int text_px) {
+  const auto [found, is_new] = half_heights_px_.try_emplace(text_px);
+  if (!is_new) return found->second;
+  shaper_->set_size(text_px);
+  return found->second = 0.5F * float(shaper_->ascent_px() + shaper_->descent_px());
+}
+
+LabelPass::LineLook LabelPass::line_look(const LabelLook& look, float scale) {
   constexpr float kFixed = 64.0F;
-  const auto text_px = static_cast<int>(std::lround(std::clamp(look.text_px, kLeastText_px, kMostText_px)));
+  const float whole_px = std::round(std::clamp(look.text_px, kLeastText_px, kMostText_px));
+  const auto text_px = static_cast<int>(std::lround(scale * whole_px));
   const bool has_halo = look.halo.alpha > 0;
-  return {{text_px, has_halo ? static_cast<int>(std::lround(5.0F * look.halo_px)) : 0},
+  return {{text_px, has_halo ? static_cast<int>(std::lround(5.0F * scale * look.halo_px)) : 0},
           static_cast<int>(std::lround(kFixed * look.letter_spacing_em * float(text_px)))};
 }
 
@@ -181,14 +185,17 @@ void LabelPass::choose(const View& view, const LabelSight& sight, ShownLabels& s
 
 void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const KeptLabel& label = ref.layer->labels()[ref.index];
-  const LineLook look = line_look(label.object.look);
+  const float scale = page.sight.pixel_scale;
+  const LineLook look = line_look(label.object.look, scale);
   const double away_m = glm::length(label.place_m - page.view.eye.xyz_m);
   const auto radius_px = static_cast<float>(label.object.radius_m / away_m * page.view.pixels_per_radian());
-  const float half_height_px = half_heights_px_[static_cast<std::size_t>(look.glyphs.text_px)];
-  const TextWay way =
-      text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
+  const float half_height_px = this->half_height_px(look.glyphs.text_px);
+  TextWay way = text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px / scale),
+                         half_height_px / scale);
+  way.near_px *= scale;
+  way.down_px *= scale;
   const int halo_px = halo_margin_px(look.glyphs);
-  const glm::vec2 place(at_px), margin(std::max(kMargin_px, float(halo_px))), up(0.0F, half_height_px);
+  const glm::vec2 place(at_px), margin(std::max(scale * kMargin_px, float(halo_px))), up(0.0F, half_height_px);
   const glm::vec2 begin = place + glm::vec2(way.near_px, way.down_px);
   // Most labels of a crowd have no room where their text begins, so their text need not be measured.
   if (!page.room.is_free({begin - up - margin, begin + up + margin})) return;
@@ -200,7 +207,7 @@ void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   if (!page.room.take({text.low_px - margin, text.high_px + margin})) return;
   const bool over_ground = page.sight.limb != nullptr && !is_underground(label.object);
   const float share = over_ground ? share_before_ground(page.view, *page.sight.limb, label.place_m, text) : 1.0F;
-  const float reach_px = std::max(kLeastReach_px, std::abs(way.down_px) + half_height_px);
+  const float reach_px = std::max(scale * kLeastReach_px, std::abs(way.down_px) + half_height_px);
   // Centres a small letter vertically on the middle of the line.
   const float baseline_px = -std::round(0.35F * float(look.glyphs.text_px)) - way.down_px;
   put(label, ref.layer->drawn(label.object.color, label), {line, halo_px, {left_px, baseline_px}, {share, reach_px}});

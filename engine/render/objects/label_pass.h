@@ -32,6 +32,7 @@ struct LabelSight {
   glm::dvec3 hiding_half_axes_m{0.0};  ///< half axes of an opaque ellipsoid that hides labels; 0: none
   const Ellipsoid* limb = nullptr;     ///< texts stay within its disc where they can; null: anywhere
   bool shown = true;
+  float pixel_scale = 1.0F;         ///< pixels of the picture for each pixel of a label's sizes
   bool above_ground = true;         ///< true: all labels over the ground are visible
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
@@ -112,7 +113,8 @@ class LabelPass {
 
   LabelPass() = default;
   void set_up_array();
-  [[nodiscard]] static LineLook line_look(const LabelLook& look);
+  [[nodiscard]] static LineLook line_look(const LabelLook& look, float scale);
+  [[nodiscard]] float half_height_px(int text_px);
   [[nodiscard]] const Line& line_of(const std::u32string& text, const LineLook& look);
   void forget_lines();
   [[nodiscard]] static bool in_sight(const KeptLabel& label, const View& view, const LabelSight& sight);
@@ -128,7 +130,7 @@ class LabelPass {
   std::unique_ptr<GlyphAtlas> atlas_;
   std::map<LineLook, std::unordered_map<std::u32string, Line>> lines_;  ///< lines of texts that were shown
   std::size_t line_count_ = 0;                                          ///< lines in lines_
-  std::array<float, std::size_t(kMostText_px) + 1> half_heights_px_{};  ///< half the height of a line, by size of text
+  std::map<int, float> half_heights_px_;                                ///< half the height of a line, by size of text
   std::vector<LabelRef> order_;                                         ///< labels in the order of placing
   std::vector<std::pair<std::uint64_t, std::uint64_t>> merged_;  ///< serials of the layers in order_, and versions
   std::array<std::vector<Character>, 4> characters_;
