@@ -20,7 +20,7 @@ layout(std140, binding = 0) uniform Frame {
   // the eye's radius and height, metres. The last row is unused.
   mat4 horizon_from_ecef;
   // Exaggeration of the heights; 1: relief is lit from the north-west instead of by the Sun; slots of slopes: tile_px
-  // over slot_px; unused.
+  // over slot_px; pixels of this picture for a pixel of all sizes in pixels (Experiments::pixel_scale).
   vec4 relief;
   // Height of the layer over the ground, metres, or less than 0, in radii, for its shadow; light of the night side of a
   // body of dust; longest pixel, texels, for which oblique patches take three taps; 1 at a time, 0 if the Sun is only a

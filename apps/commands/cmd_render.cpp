@@ -27,6 +27,8 @@ namespace terrella {
 namespace {
 
 constexpr std::size_t kMostNamed = 16;
+constexpr long kMostSupersample = 4;
+constexpr long kLeastMoments = 2, kMostMoments = 64;
 constexpr const char* kPictureName = "picture name";  ///< name of the validator of --output
 void report(const RenderCommand& command, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
@@ -124,6 +126,11 @@ CLI::App& add_render_options(CLI::App& app, RenderCommand& command) {
   sub.add_flag("--scale-bar", command.scale_bar,
                "Draw a bar with a round length on the ground in the lower right corner");
   add_units_option(sub, command.units)->needs(sub.get_option("--scale-bar"))->default_str("metric");
+  sub.add_option(
+         "--supersample", command.supersample,
+         "Draw this many times as wide and high and average in linear light, which smooths edges and fine detail")
+      ->check(whole_number_in(1, kMostSupersample))
+      ->capture_default_str();
   sub.add_flag("--json", command.json, "Print the result as one JSON object");
   sub.footer(
       "Examples:\n"
@@ -172,6 +179,17 @@ void add_film_options(CLI::App& sub, FilmCommand& film) {
          "Render only part I of N of the frames of --flight: every Nth one, for several machines")
       ->needs(flight)
       ->type_name("I/N");
+  CLI::Option* blur =
+      sub.add_option("--motion-blur", film.shutter,
+                     "Average each frame of --flight, in linear light, over this part of its time, half of it before "
+                     "and half after the frame's own. Cameras have 0.5; 0 is none")
+          ->check(number_in(0.0, 1.0))
+          ->needs(flight)
+          ->capture_default_str();
+  sub.add_option("--blur-moments", film.moments, "Draw this many moments of each frame for --motion-blur")
+      ->check(whole_number_in(kLeastMoments, kMostMoments))
+      ->needs(blur)
+      ->capture_default_str();
   sub.add_flag("--force", film.force, "Replace the frames of another film, and render all frames of --flight anew")
       ->needs(flight);
 }
@@ -233,6 +251,9 @@ int run_as_said(const CLI::App& sub, FilmCommand& film, MapCommand* map) {
   if (const Status named = check_picture_name(film.render.output); !named) {
     throw CLI::ValidationError("--output",
                                named.error().message + (map != nullptr ? ", or with --extent a map as .tif" : ""));
+  }
+  if (const Status may = check_supersample(film.render); !may) {
+    throw CLI::ValidationError("render", may.error().message);
   }
   if (film.flight.empty()) return run_render(film.render, nullptr);
   if (sub.count("--camera") > 0) {

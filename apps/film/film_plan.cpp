@@ -27,7 +27,17 @@ Result<FilmPlan> FilmPlan::make(std::vector<FlightPath> paths, double fps) {
   return plan;
 }
 
-FlightMoment FilmPlan::moment(std::int64_t frame) const { return moment_at(paths_, static_cast<double>(frame) / fps_); }
+FlightMoment FilmPlan::moment(std::int64_t frame, double later_s) const {
+  return moment_at(paths_, static_cast<double>(frame) / fps_, later_s);
+}
+
+std::vector<FlightMoment> FilmPlan::moments(std::int64_t frame, double shutter, int count) const {
+  if (shutter == 0.0) return {moment(frame)};
+  std::vector<FlightMoment> all;
+  all.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) all.push_back(moment(frame, ((k + 0.5) / count - 0.5) * shutter / fps_));
+  return all;
+}
 
 std::optional<UtcTime> FilmPlan::first_sun() const {
   for (const FlightPath& path : paths_) {

@@ -19,7 +19,11 @@ class FilmPlan {
   [[nodiscard]] static Result<FilmPlan> make(std::vector<FlightPath> paths, double fps);
 
   [[nodiscard]] std::int64_t frames() const { return frames_; }  ///< at least 1
-  [[nodiscard]] FlightMoment moment(std::int64_t frame) const;
+  /// The moment of a frame, or one that is some seconds later. Frames do not see over the end of their flight.
+  [[nodiscard]] FlightMoment moment(std::int64_t frame, double later_s = 0.0) const;
+  /// The moments that a frame averages: evenly over the time that the shutter is open, part of a frame's time. As
+  /// usual in animation, it is open before and after the frame's own time for as long. A shutter of 0: that time alone.
+  [[nodiscard]] std::vector<FlightMoment> moments(std::int64_t frame, double shutter, int count) const;
   /// The first time of the flights' Sun; none if they set no time.
   [[nodiscard]] std::optional<UtcTime> first_sun() const;
 

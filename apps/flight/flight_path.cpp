@@ -48,12 +48,12 @@ double duration_s(std::span<const FlightPath> flights) {
   return sum_s;
 }
 
-FlightMoment moment_at(std::span<const FlightPath> flights, double time_s) {
+FlightMoment moment_at(std::span<const FlightPath> flights, double time_s, double later_s) {
   for (const FlightPath& flight : flights.first(flights.size() - 1)) {
-    if (time_s < flight.duration_s()) return flight.at(time_s);
+    if (time_s < flight.duration_s()) return flight.at(time_s + later_s);
     time_s -= flight.duration_s();
   }
-  return flights.back().at(time_s);
+  return flights.back().at(time_s + later_s);
 }
 
 std::vector<double> even_pace(const std::vector<FlightMoment>& keyframes) {

@@ -17,6 +17,7 @@ struct FlightMoment {
   Camera camera;
   std::optional<double> surface_alpha{};  ///< opacity of the surface, [0, 1]; none: as the scene has it
   std::optional<UtcTime> sun{};           ///< time of Sun and sky; none: as the scene has it
+  bool operator==(const FlightMoment&) const = default;
 };
 
 /// A flight of the eye through keyframes. The eye moves along an EyeWay. The logarithm of its height, pitch, opacity
@@ -52,8 +53,9 @@ class FlightPath {
 
 // Flights one after the other, at least one.
 [[nodiscard]] double duration_s(std::span<const FlightPath> flights);
-/// The moment at a time. Outside the flights' times it is their first or last moment.
-[[nodiscard]] FlightMoment moment_at(std::span<const FlightPath> flights, double time_s);
+/// The moment some seconds later than a time, or earlier, in the flight of that time. Outside the flight's times it is
+/// its first or last moment.
+[[nodiscard]] FlightMoment moment_at(std::span<const FlightPath> flights, double time_s, double later_s = 0.0);
 
 /// Seconds at which an eye passes keyframes at an even pace, from 0 on: 4 s for a way as long as the eye is high, for a
 /// height that changes by a factor of 2.7, or for a turn by a radian. Ways are as long as on the Earth.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/film/film_plan.h"
+#include "apps/film/light_sum.h"
 #include "apps/film/movie_pipe.h"
 #include "apps/flight/flight_file.h"
 #include "apps/open_scene/open_rasters.h"
@@ -58,7 +59,7 @@ class Film {
  private:
   Status render_frame(std::int64_t frame);
   void count(std::int64_t frame, const Rendered& rendered);
-  Status write(std::int64_t frame, const Rendered& rendered);
+  Status write(std::int64_t frame, const Image& image, bool complete);
 
   const FilmCommand& command_;
   FilmPlan plan_;
@@ -118,12 +119,29 @@ Status Film::render() {
 }
 
 Status Film::render_frame(std::int64_t frame) {
-  const FlightMoment moment = plan_.moment(frame);
-  if (Status begun = picture_->begin_frame(moment.surface_alpha, moment.sun); !begun) return begun;
-  const auto rendered = picture_->draw(moment.camera);
-  if (!rendered) return rendered.error();
-  count(frame, *rendered);
-  return write(frame, *rendered);
+  const std::vector<FlightMoment> moments = plan_.moments(frame, command_.shutter, command_.moments);
+  if (moments.size() > 1) {
+    const FlightMoment own = plan_.moment(frame);
+    if (Status begun = picture_->begin_frame(own.surface_alpha, own.sun); !begun) return begun;
+    if (Status shown = picture_->show_features(own.camera); !shown) return shown;
+  }
+  std::optional<LightSum> light;
+  if (moments.size() > 1) light.emplace(command_.render.scene.size, 1);
+  Image image;
+  bool complete = true;
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const FlightMoment& moment = moments[k];
+    if (k == 0 || moment != moments[k - 1]) {
+      if (Status begun = picture_->begin_frame(moment.surface_alpha, moment.sun); !begun) return begun;
+      auto rendered = picture_->draw(moment.camera);
+      if (!rendered) return rendered.error();
+      count(frame, *rendered);
+      complete = complete && is_complete(rendered->stats);
+      image = std::move(rendered->image);
+    }
+    if (light) light->add(image);
+  }
+  return write(frame, light ? light->mean() : image, complete);
 }
 
 void Film::count(std::int64_t frame, const Rendered& rendered) {
@@ -141,10 +159,10 @@ void Film::count(std::int64_t frame, const Rendered& rendered) {
   tell_incomplete(frame, rendered);
 }
 
-Status Film::write(std::int64_t frame, const Rendered& rendered) {
-  if (movie_) return movie_->write(rendered.image);
+Status Film::write(std::int64_t frame, const Image& image, bool complete) {
+  if (movie_) return movie_->write(image);
   folder_->remove_parts(frame);
-  return folder_->write(frame, rendered.image, is_complete(rendered.stats));
+  return folder_->write(frame, image, complete);
 }
 
 void report(const FilmCommand& command, const Film& film, double seconds) {

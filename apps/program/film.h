@@ -16,6 +16,8 @@ struct FilmCommand {
   double fps = 30.0;
   std::optional<Shard> shard;  ///< frames whose number leaves the rest `index` - 1 when divided by `count`
   bool force = false;          ///< replace frames of another film
+  double shutter = 0.0;        ///< part of a frame's time over which it is averaged, [0, 1]
+  int moments = 8;             ///< pictures of such an average
   FilmFacts facts;             ///< hashes of the options
 };
 

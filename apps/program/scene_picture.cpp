@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/film/light_sum.h"
 #include "apps/open_scene/bounds_view.h"
 #include "apps/open_scene/eye_place.h"
 #include "apps/open_scene/scene_objects.h"
@@ -22,6 +23,7 @@
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/styles/class_legend.h"
 #include "apps/viewer/tools/map_painter.h"
+#include "apps/viewer/tools/picture_job.h"
 #include "apps/viewer/tools/picture_ui.h"
 #include "globe/experiments.h"
 #include "render/gl/offscreen.h"
@@ -60,6 +62,12 @@ Status check_some_came(const FrameStats& stats, const std::deque<MissingTile>& m
   return Error{message};
 }
 
+/// The size in which a picture is drawn.
+Viewport drawn_size(const RenderCommand& command) {
+  const Viewport size = command.scene.size;
+  return {command.supersample * size.width_px, command.supersample * size.height_px};
+}
+
 /// Renders until settled or until the deadline, and checks for signals a few times a second.
 /// With `heights_first`, imagery waits until all heights are there.
 void wait_for_tiles(Globe& globe, unsigned framebuffer, Viewport size, std::chrono::steady_clock::time_point deadline,
@@ -89,7 +97,7 @@ void render_all(Globe& globe, const RenderCommand& command, const Camera& wanted
   Camera camera = out_of_ground(wanted, 0.0, may_be_under);
   for (int move = 0; move < kMostMoves; ++move) {
     globe.set_camera(camera);
-    wait_for_tiles(globe, framebuffer, command.scene.size, deadline, heights_first);
+    wait_for_tiles(globe, framebuffer, drawn_size(command), deadline, heights_first);
     camera = out_of_ground(wanted, globe.ground_height_m(wanted.eye.lat, wanted.eye.lon), may_be_under);
     if (camera.eye.height_m == globe.camera().eye.height_m) break;
   }
@@ -104,6 +112,15 @@ Status check_drawing_memory(Viewport size) {
   const std::size_t pixels = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
   return check_memory(kDriver_bytes + kBytesAPixel * pixels,
                       fmt::format("drawing {}x{} pixels", size.width_px, size.height_px));
+}
+
+Status check_drawn_side(const RenderCommand& command, int most_px) {
+  const Viewport size = command.scene.size, drawn = drawn_size(command);
+  if (std::max(drawn.width_px, drawn.height_px) <= most_px) return Done{};
+  return Error{
+      fmt::format("--supersample {} draws {}x{} pixels for a picture of {}x{}, and a side has at most {}: give "
+                  "a smaller --supersample or --size",
+                  command.supersample, drawn.width_px, drawn.height_px, size.width_px, size.height_px, most_px)};
 }
 
 /// The classes of the objects and the layers of numbers, the highest first.
@@ -152,7 +169,8 @@ struct ScenePicture::Parts {
   std::unique_ptr<MapPainter> map{};
   OpenedScene scene{};
   bool checked_fills = false;
-  bool is_film = false;  ///< begin_frame() was called
+  bool is_film = false;         ///< begin_frame() was called
+  bool keeps_features = false;  ///< show_features() was called
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
   std::map<LayerId, PointClusters> clusters{};
@@ -169,14 +187,18 @@ struct ScenePicture::Parts {
 };
 
 Result<GlobeOptions> ScenePicture::Parts::prepare(const Body& body) {
-  if (Status room = check_drawing_memory(command.scene.size); !room) return room.error();
+  if (Status room = check_drawing_memory(drawn_size(command)); !room) return room.error();
   Result<std::unique_ptr<HeadlessContext>> made = HeadlessContext::create();
   if (!made) return made.error();
   context = *std::move(made);
+  if (command.supersample > 1) {
+    if (Status fits = check_drawn_side(command, largest_picture_side_px()); !fits) return fits.error();
+  }
   return picture_options(command, body);
 }
 
 Status ScenePicture::Parts::open() {
+  if (const Status may = check_supersample(command); !may) return may.error();
   auto opened = open_scene(command.scene, [this](const Body& body) { return prepare(body); });
   if (!opened) return opened.error();
   scene = *std::move(opened);
@@ -185,7 +207,8 @@ Status ScenePicture::Parts::open() {
   auto painter = open_map(command.scene, scene.body);
   if (!painter) return painter.error();
   map = *std::move(painter);
-  target = std::make_unique<OffscreenTarget>(command.scene.size);
+  target = std::make_unique<OffscreenTarget>(drawn_size(command));
+  Experiments::of(*scene.globe).pixel_scale = command.supersample;
   return Done{};
 }
 
@@ -198,6 +221,14 @@ Status ScenePicture::Parts::add_drawings() {
   scene.all_objects = scene.all_objects && marks->complaints.empty();
   const auto added = scene.globe->add_objects(drawing_scene(marks->drawing, 1.0F));
   return added ? Status(Done{}) : added.error();
+}
+
+Status check_supersample(const RenderCommand& command) {
+  if (command.supersample == 1) return Done{};
+  if (command.scene.stereo.mode == Stereo::interlaced) {
+    return Error{"--supersample would mix the rows of --stereo interlaced; leave out one of them"};
+  }
+  return check_drawn_side(command, kMaxSide_px);
 }
 
 std::vector<std::string> inputs_of(const SceneOptions& scene) {
@@ -330,13 +361,21 @@ Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optio
   return globe().set_elevation(parts_->scene.heights);
 }
 
+Status ScenePicture::show_features(const Camera& camera) {
+  globe().set_camera(camera);
+  parts_->keeps_features = true;
+  return parts_->follow_view();
+}
+
 Result<Rendered> ScenePicture::draw(const Camera& camera) {
   Parts& own = *parts_;
-  const Viewport size = own.command.scene.size;
+  const Viewport size = drawn_size(own.command);
   const unsigned framebuffer = own.target->framebuffer();
   Globe& globe = *own.scene.globe;
   globe.set_camera(camera);
-  if (const Status followed = own.follow_view(); !followed) return followed.error();
+  if (!own.keeps_features) {
+    if (const Status followed = own.follow_view(); !followed) return followed.error();
+  }
   render_all(globe, own.command, camera, framebuffer, own.is_film);
   const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
   if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
@@ -354,15 +393,20 @@ Result<Rendered> ScenePicture::draw(const Camera& camera) {
   if (own.command.legend) overlay.legend = legend_of(own.scene);
   if (own.command.credits) overlay.credits = thanks;
   if (own.command.scale_bar) overlay.scale_units = own.command.units;
-  if (const Status drawn = draw_over_picture(globe, framebuffer, size, overlay); !drawn) {
+  if (const Status drawn =
+          draw_over_picture(globe, framebuffer, own.command.scene.size, overlay, own.command.supersample);
+      !drawn) {
     return Error{where + drawn.error().message};
   }
   const auto& heights = globe.missing_heights();
-  return Rendered{{size.width_px, size.height_px, own.target->read()},
-                  stats,
-                  {missing.begin(), missing.end()},
-                  {heights.begin(), heights.end()},
-                  std::move(thanks)};
+  Image image{size.width_px, size.height_px, own.target->read()};
+  if (own.command.supersample > 1) {
+    LightSum light(own.command.scene.size, own.command.supersample);
+    light.add(image);
+    image = light.mean();
+  }
+  return Rendered{
+      std::move(image), stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, std::move(thanks)};
 }
 
 }  // namespace terrella

@@ -26,9 +26,12 @@ struct RenderCommand {
   bool credits = false;
   bool scale_bar = false;
   LengthUnits units = LengthUnits::metric;  ///< units of the scale bar
+  int supersample = 1;                      ///< pixels drawn for each one of the picture, along both sides
   bool more_objects = false;                ///< objects with labels may be added to the globe later
 };
 
+/// Fails if a picture cannot be drawn as many times larger as the command says. thread: any
+[[nodiscard]] Status check_supersample(const RenderCommand& command);
 /// The files, folders and addresses that a scene is drawn from; some are empty. thread: any
 [[nodiscard]] std::vector<std::string> inputs_of(const SceneOptions& scene);
 
@@ -71,6 +74,9 @@ class ScenePicture {
   /// Begins a frame of a film, with its own opacity of the surface and time of the Sun; none: as before. Forgets the
   /// tiles that earlier frames loaded, so that draw() gives the same pixels whatever they were (globe/experiments.h).
   [[nodiscard]] Status begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun);
+  /// Shows the features and clusters of a view, and keeps them in all later pictures until the next call: those of one
+  /// instant for all moments of a blurred frame.
+  [[nodiscard]] Status show_features(const Camera& camera);
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).
   [[nodiscard]] Result<Rendered> draw(const Camera& camera);

@@ -76,7 +76,9 @@ std::optional<GeoRect> plain_bounds(const TileSetInfo& info) {
   return bounds;
 }
 
-std::string dump(const ordered_json& json) { return json.dump(2, ' ', false, ordered_json::error_handler_t::replace); }
+std::string dump(const ordered_json& document) {
+  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
 
 /// The coordinate reference system of a matrix set.
 struct MatrixSystem {

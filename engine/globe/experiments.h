@@ -27,6 +27,10 @@ struct Experiments {
   /// Returns the settings of a globe. A change holds from the next frame on.
   [[nodiscard]] static Experiments& of(Globe& globe);
 
+  /// Pixels of the picture for each pixel of a size, [1, 4]: of stars, markers, lines, texts, and pictures of the
+  /// ground. A picture that is drawn larger and then averaged thus has symbols of their usual size.
+  double pixel_scale = 1.0;
+
   // For films. A settled picture depends on the tiles of earlier views: heights are taken from the finest loaded tile,
   // and a texture continues in the loaded neighbours of its tile. These two make a picture depend on its view alone.
   /// Forgets all tiles of imagery and pictures of the ground, as if the globe were new. Globe::set_elevation() does the

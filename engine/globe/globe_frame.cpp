@@ -156,6 +156,7 @@ FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px)
                    .on_draw = &on_draw,
                    .paper_a = globe->experiments.paper_a,
                    .paper_band = globe->experiments.paper_band,
+                   .pixel_scale = globe->experiments.pixel_scale,
                    .naive_translucency = globe->experiments.naive_translucency,
                    .layers_one_by_one = globe->experiments.layers_one_by_one};
   for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->sides()));
@@ -215,7 +216,8 @@ void GlobeView::Impl::plan_ground() {
                                 .tree = stack.front()->tree(),
                                 .patches = stack.front()->patches(),
                                 .has_relief = globe->heights != nullptr,
-                                .clearance_m = clearance_m()},
+                                .clearance_m = clearance_m(),
+                                .pixel_scale = globe->experiments.pixel_scale},
                                ground);
   std::vector<const ViewGround*> views;
   for (const Impl* each : globe->views) views.push_back(&each->ground);

@@ -38,6 +38,7 @@ struct GroundView {
   const std::vector<SelectedPatch>& patches;
   bool has_relief = false;
   double clearance_m = 0.0;  ///< least distance of the ground from the eye
+  double pixel_scale = 1.0;  ///< pixels of the view for each pixel of a size
 };
 
 /// The pictures of what lies on the ground: those that views need, at about a texel a pixel. Workers paint them. Until

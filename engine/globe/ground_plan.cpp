@@ -102,8 +102,9 @@ class GroundPictures::Planner {
   struct Sight {
     BoundingSphere sphere;
     glm::dvec3 up{0.0}, to_eye{0.0};
-    double away_m = 0.0, side_m = 0.0, pixel_m = 0.0;
-    double longest_m = 0.0;  ///< ground under the longest pixel
+    double away_m = 0.0, side_m = 0.0;
+    double pixel_m = 0.0;    ///< ground under a pixel of a size
+    double longest_m = 0.0;  ///< the same, under the longest pixel
     /// Pixels that a texel of a square some levels above is wide.
     [[nodiscard]] double texel_px(int levels) const {
       return std::ldexp(side_m, levels) / (GroundPicture::kInner_px * pixel_m);
@@ -126,14 +127,14 @@ class GroundPictures::Planner {
       const double slant = std::min(kMostSlant, 1.0 / std::max(cosine, 1e-3));
       longest = std::max(longest, away_m * std::max(slant, view_.has_relief ? kReliefSlant : 1.0));
     }
-    s.longest_m = longest / view_.view.pixels_per_radian();
+    s.longest_m = longest / view_.view.pixels_per_radian() * view_.pixel_scale;
     s.sphere.radius_m = flat_m + relief.half_m;
     s.to_eye = view_.view.eye.xyz_m - s.sphere.center_m;
     s.away_m = glm::length(s.to_eye);
     // An eye among the heights of relief is in the spheres of many squares.
     const double least_m = s.away_m > 1.5 * flat_m ? 0.2 * s.away_m : view_.clearance_m;
     const double nearest_m = std::max(s.away_m - flat_m - std::min(relief.half_m, 0.5 * s.away_m), least_m);
-    s.pixel_m = nearest_m / view_.view.pixels_per_radian() * coarser_;
+    s.pixel_m = nearest_m / view_.view.pixels_per_radian() * view_.pixel_scale * coarser_;
     s.side_m = std::sqrt(2.0) * flat_m;
     return s;
   }
@@ -147,7 +148,9 @@ class GroundPictures::Planner {
       for (const PatchId& child : children(id)) visit(child, depth + 1, out);
       return;
     }
-    const double most_px = view_.has_relief ? kMostLargerTexelOnRelief_px : kMostLargerTexel_px;
+    // A larger view of the same sizes has smaller patches, and the pictures that it would have without.
+    const double most_flat_px = view_.pixel_scale > 1.0 ? kMostTexel_px : kMostLargerTexel_px;
+    const double most_px = view_.has_relief ? kMostLargerTexelOnRelief_px : most_flat_px;
     PatchId square = id;
     int up = 0;
     while (depth == 0 && up < kMostHalvings && square.level > kLeastLevel && sight.texel_px(up + 1) <= most_px) {

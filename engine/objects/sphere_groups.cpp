@@ -19,7 +19,7 @@ namespace {
 using glm::vec3;
 
 constexpr unsigned kCurveBits = 30;
-constexpr float kAround_px = 2.0F;  // the smallest sphere's radius plus its edge (object_sphere_seen.glsl)
+constexpr float kAround_px = 4.0F;  // the smallest sphere's largest radius plus its edge (object_sphere_seen.glsl)
 
 /// Spreads the ten low bits of a number to every third bit.
 std::uint32_t spread(std::uint32_t bits) {

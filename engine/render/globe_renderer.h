@@ -85,6 +85,7 @@ struct FrameInput {
   const std::function<void(DrawStage, const FrameMatrices&)>* on_draw = nullptr;
   double paper_a = 4.0;      ///< a of paper 1's formula (6), for Texturing::paper
   double paper_band = 0.05;  ///< b of paper 1's formula (5), for Texturing::paper
+  double pixel_scale = 1.0;  ///< pixels of the picture for each pixel of a size
   /// For tests: draws in the order of an opaque globe with blending switched on, to show the artefacts that paper 2
   /// prevents.
   bool naive_translucency = false;

@@ -72,6 +72,7 @@ LabelSight GlobeRenderer::label_sight(const Pass& pass) const {
   LabelSight sight;
   sight.limb = &ellipsoid_;
   sight.shown = pass.input.lit;
+  sight.pixel_scale = static_cast<float>(pass.input.pixel_scale);
   const SurfaceLook& surface = pass.input.surface;
   if (under_ground(pass)) {
     const SurfaceFromBelow look = surface_look(pass);

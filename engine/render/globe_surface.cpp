@@ -277,6 +277,7 @@ void GlobeRenderer::upload_frame(const Pass& pass) {
     block.relief = glm::vec4(pass.input.relief->exaggeration(), pass.input.surface.hillshade ? 1.0 : 0.0,
                              slopes_->slot_share(), 0.0);
   }
+  block.relief.w = static_cast<float>(pass.input.pixel_scale);
   constexpr float kNightAtATime = 0.02F, kNight = 0.25F;  // without a time the Sun is only a lamp
   block.surface_look =
       glm::vec4(0.0F, pass.input.timed ? kNightAtATime : kNight,

@@ -31,7 +31,7 @@ void main() {
   vec3 center = from_eye(place_high_ecef, place_low_ecef);
   vec3 c = mat3(view_from_ecef) * center;
   place = vec4(texelFetch(places, ivec2(int(image), 0), 0));
-  texels_of_pixel = max(place.z, place.w) / size;
+  texels_of_pixel = max(place.z, place.w) / (relief.w * size);
   sides_px = place.zw / texels_of_pixel;
   tint = color;
   wash = wash_color;
@@ -40,7 +40,7 @@ void main() {
   vec2 from_place = at_px - anchor * sides_px;
   vec2 offset_px = from_place.x * right - from_place.y * high;
   // The ground under the part below the place is nearer to the eye, as under a marker.
-  pull = 1.0 - (depth_bias > 0.0 ? depth_bias + min(4.0 * below_px / focal_px(), 0.5) : 0.0);
+  pull = 1.0 - (depth_bias > 0.0 ? depth_bias + min(4.0 * relief.w * below_px / focal_px(), 0.5) : 0.0);
   vec4 clip = clip_of(c, pull);
   if (clip.w > 0.0) clip.xy += offset_px * (2.0 / viewport_px) * clip.w;
   gl_Position = color.a == 0.0 || is_hidden(center, length(center), 0.0) ? kNowhere : clip;

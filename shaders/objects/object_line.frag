@@ -11,7 +11,7 @@ layout(location = 0) out vec4 color_srgb;
 // The part of the pixel that a dash covers. Lengths in metres are powers of two of those in pixels, so dashes keep their
 // places until they have twice or half their size.
 float on_dash() {
-  float px_m = max(length(vec2(dFdx(along), dFdy(along))), 1e-9), scale_m = exp2(round(log2(px_m)));
+  float px_m = max(length(vec2(dFdx(along), dFdy(along))), 1e-9), scale_m = exp2(round(log2(relief.w * px_m)));
   float on_m = dash_px.x * scale_m, period_m = (dash_px.x + dash_px.y) * scale_m;
   float from_middle_m = abs(mod(along - 0.5 * on_m + 0.5 * period_m, max(period_m, 1e-9)) - 0.5 * period_m);
   return dash_px.y > 0.0 ? clamp(0.5 + (0.5 * on_m - from_middle_m) / px_m, 0.0, 1.0) : 1.0;

@@ -52,7 +52,7 @@ float flat_depth(vec3 p, vec2 off) {
 
 void main() {
   vec3 here = view_of(here_high_ecef, here_low_ecef), next = view_of(next_high_ecef, next_low_ecef);
-  half_width_px = 0.5 * width;
+  half_width_px = 0.5 * relief.w * width;
   line_color = color;
   pull = 1.0 - depth_bias;
   dash_px = dashes / 8.0;

@@ -10,7 +10,7 @@ void main() {
   float distance_px = length(offset_px);
   float coverage = clamp(0.5 + radius_px - distance_px, 0.0, 1.0);
   if (coverage <= 0.0) discard;
-  float outline = min(kOutline_px, 0.4 * radius_px);
+  float outline = min(relief.w * kOutline_px, 0.4 * radius_px);
   float inside = clamp(0.5 + radius_px - outline - distance_px, 0.0, 1.0);
   color_srgb = vec4(marker_color.rgb * mix(0.3, 1.0, inside), marker_color.a * coverage);
   WRITE_DEPTH(pull);

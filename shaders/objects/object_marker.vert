@@ -12,7 +12,7 @@ flat out float pull;
 void main() {
   vec3 center = from_eye(center_high_ecef, center_low_ecef);
   vec3 c = mat3(view_from_ecef) * center;
-  radius_px = 0.5 * size;
+  radius_px = 0.5 * relief.w * size;
   marker_color = color;
   offset_px = corner_of(gl_VertexID) * (radius_px + 1.0);
   // The ground under a disc's lower half is nearer to the eye than its place. This amount suffices down to a slant of

@@ -20,7 +20,7 @@ struct Outline {
 bool see_sphere(out Outline outline) {
   vec3 c = from_eye(center_high_ecef, center_low_ecef);
   float away = length(c);
-  float r = max(radius, kSmallest_px * away / focal_px());
+  float r = max(radius, relief.w * kSmallest_px * away / focal_px());
   float q = r / away;
   float k2 = 1.0 - q * q;
   sphere_color = color;

@@ -16,8 +16,9 @@ void main() {
   vec3 p = view_from_j2000 * direction_j2000;
   gl_Position = vec4(p.xy * clip_scale.xy, -0.5 * p.z, -p.z);
   // A spot cannot be brighter than the screen. Bright stars are wider instead, with the same total light.
-  float light_px = visibility * kZeroMagnitude_px * exp2(-1.328771 * magnitude);
-  float variance = max(kSpread_px * kSpread_px, light_px / 6.2831853);
+  float px = relief.w * relief.w;
+  float light_px = px * visibility * kZeroMagnitude_px * exp2(-1.328771 * magnitude);
+  float variance = max(px * kSpread_px * kSpread_px, light_px / 6.2831853);
   peak_linear = star_color_linear * (light_px / (6.2831853 * variance));
   inverse_variance = 1.0 / variance;
   point_px = 2.0 * ceil(3.0 * sqrt(variance)) + 1.0;

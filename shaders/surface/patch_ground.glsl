@@ -43,7 +43,7 @@ vec4 areas_on(OnPicture p, float slot) {
 // the point at an end of a piece.
 vec4 line_on(OnPicture p, uvec2 line, float reach) {
   uvec4 parts = (uvec4(line.y) >> uvec4(23u, 12u, 6u, 0u)) & uvec4(511u, 1023u, 63u, 63u);
-  float half_width = float(parts.x) / 8.0;
+  float half_width = relief.w * float(parts.x) / 8.0;
   vec2 across = vec2(parts.zw) * vec2(1.0 / 31.0, 1.0 / 63.0) - vec2(32.0 / 31.0, 0.0);
   vec2 from_middle = p.at - (floor(p.at) + 0.5);
   float distance = (float(parts.y) - 512.0) * (reach / 511.0), away = dot(across, from_middle) - distance;

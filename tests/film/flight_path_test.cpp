@@ -159,5 +159,26 @@ TEST(FlightPath, IsReadAgainAsItWasWritten) {
   }
 }
 
+TEST(FilmPlan, MomentsLieEvenlyAroundTheirFrame) {
+  const auto plan = FilmPlan::make({path_of("[[0,0,1000],[1,0,1000]]", R"({"duration_s":2})"),
+                                    path_of("[[5,0,1000],[6,0,1000]]", R"({"duration_s":1})")},
+                                   10.0);
+  ASSERT_TRUE(plan);
+  const auto lons = [&](std::int64_t frame, double shutter, int count) {
+    std::vector<double> found;
+    for (const FlightMoment& moment : plan->moments(frame, shutter, count))
+      found.push_back(moment.camera.eye.lon.deg());
+    return found;
+  };
+  // Half a degree a second: 0.1 s is 0.05°.
+  const std::vector<double> open = lons(10, 0.8, 4);
+  ASSERT_EQ(open.size(), 4U);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(open[std::size_t(k)], 0.5 + 0.05 * 0.8 * (k - 1.5) / 4.0, kRounding);
+  EXPECT_EQ(lons(10, 0.0, 4), std::vector<double>{plan->moment(10).camera.eye.lon.deg()});
+  EXPECT_NEAR(lons(0, 1.0, 2).front(), 0.0, kRounding);
+  EXPECT_LT(lons(19, 1.0, 64).back(), 1.0 + kRounding);  // no moment shows the other flight
+  EXPECT_GT(lons(20, 1.0, 64).front(), 5.0 - kRounding);
+}
+
 }  // namespace
 }  // namespace terrella

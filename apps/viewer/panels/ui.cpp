@@ -24,9 +24,7 @@ constexpr float kTopMargin = 0.8F;  // in text heights
 // unit size.
 void fit_to(const Window& window) {
   const float unit_px = static_cast<float>(window.pixels_per_unit().x);
-  load_panel_fonts(window.text_scale());
-  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
-  set_theme(window.text_scale() / unit_px);
+  Ui::use_text(window.text_scale() / unit_px, unit_px);
 }
 
 /// True for a window that the program drew in this frame.
@@ -188,8 +186,9 @@ void Ui::on_enter(GLFWwindow* window, int entered) { ImGui_ImplGlfw_CursorEnterC
 
 void Ui::on_focus(GLFWwindow* window, int focused) { ImGui_ImplGlfw_WindowFocusCallback(window, focused); }
 
-void Ui::use_text(float scale) {
-  load_panel_fonts(scale);
+void Ui::use_text(float scale, float unit_px) {
+  load_panel_fonts(scale * unit_px);
+  ImGui::GetIO().FontGlobalScale = 1.0F / unit_px;
   set_theme(scale);
 }
 

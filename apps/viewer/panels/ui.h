@@ -73,8 +73,9 @@ class Ui {
   bool on_character(unsigned character);
   static void on_enter(GLFWwindow* window, int entered);
   static void on_focus(GLFWwindow* window, int focused);
-  /// Sets font and style for panels without a window. Not within a frame.
-  static void use_text(float scale);
+  /// Sets font and style: the text's size at 96 dots per inch times `scale`, in units of `unit_px` pixels each. Not
+  /// within a frame.
+  static void use_text(float scale, float unit_px = 1.0F);
   /// Height of the panels' font, in units of the window; within a frame.
   [[nodiscard]] static double text_height();
   /// Rectangles of the panels that this frame has so far, without tips, lists of choices and the menu; within a frame.

@@ -37,10 +37,12 @@ class PictureUi {
   PictureUi(const PictureUi&) = delete;
   PictureUi& operator=(const PictureUi&) = delete;
 
-  [[nodiscard]] bool open(Viewport size) {
+  [[nodiscard]] bool open(Viewport size, int unit_px) {
     ImGuiIO& io = ImGui::GetIO();
+    const auto unit = static_cast<float>(unit_px);
     io.IniFilename = nullptr;
     io.DisplaySize = {static_cast<float>(size.width_px), static_cast<float>(size.height_px)};
+    io.DisplayFramebufferScale = {unit, unit};
     load_text();
     drawn_ = ImGui_ImplOpenGL3_Init("#version 450 core");
     return drawn_;
@@ -54,7 +56,10 @@ class PictureUi {
   }
 
  private:
-  static void load_text() { Ui::use_text(std::clamp(ImGui::GetIO().DisplaySize.y / kPlainHeight_px, 1.0F, kMost)); }
+  static void load_text() {
+    const ImGuiIO& io = ImGui::GetIO();
+    Ui::use_text(std::clamp(io.DisplaySize.y / kPlainHeight_px, 1.0F, kMost), io.DisplayFramebufferScale.y);
+  }
 
   ImGuiContext* before_;
   ImGuiContext* own_;
@@ -62,7 +67,7 @@ class PictureUi {
 };
 
 /// Lines first, then texts, and names where the texts leave room. False if the credits have none.
-bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overlay) {
+bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overlay, int unit_px) {
   const View view = globe.view(size);
   if (overlay.map != nullptr) overlay.map->draw_lines(globe, view, 1.0, MapDetail::full);
   const double gap = kGap * Ui::text_height();
@@ -75,7 +80,7 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
     if (const auto bar = scale_bar(view, globe.ground(), most_px, *overlay.scale_units)) draw_scale(*bar);
   }
   std::vector<UiBox> taken = Ui::panel_boxes();
-  std::ranges::move(object_labels(globe, 1.0), std::back_inserter(taken));
+  std::ranges::move(object_labels(globe, unit_px), std::back_inserter(taken));
   if (overlay.graticule) {
     const std::vector<UiBox> labels = draw_graticule(globe, view, 1.0, 0.0, taken);
     taken.insert(taken.end(), labels.begin(), labels.end());
@@ -85,26 +90,28 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
 }
 
 /// Prepares a frame with the overlay. False if the credits have no room.
-bool draw_frame(const Globe& globe, Viewport size, const PictureOverlay& overlay) {
+bool draw_frame(const Globe& globe, Viewport size, const PictureOverlay& overlay, int unit_px) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  const bool credited = draw_overlay(globe, size, overlay);
+  const bool credited = draw_overlay(globe, size, overlay, unit_px);
   ImGui::Render();
   return credited;
 }
 
 }  // namespace
 
-Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size, const PictureOverlay& overlay) {
+Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size, const PictureOverlay& overlay,
+                         int unit_px) {
   if (overlay.empty()) return Done{};
   PictureUi ui;
-  if (!ui.open(size)) return Error{"texts and lines cannot be drawn over the picture: libGL is missing; install it"};
+  if (!ui.open(size, unit_px))
+    return Error{"texts and lines cannot be drawn over the picture: libGL is missing; install it"};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, size.width_px, size.height_px);
-  bool credited = draw_frame(globe, size, overlay);
+  glViewport(0, 0, unit_px * size.width_px, unit_px * size.height_px);
+  bool credited = draw_frame(globe, size, overlay, unit_px);
   if (letters_wait()) {
     ui.load_letters();
-    credited = draw_frame(globe, size, overlay);
+    credited = draw_frame(globe, size, overlay, unit_px);
   }
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (credited) return Done{};

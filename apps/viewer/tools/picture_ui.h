@@ -25,10 +25,11 @@ struct PictureOverlay {
   }
 };
 
-/// Draws over the globe's picture in a framebuffer, as the window does. Texts are larger in higher pictures. Fails if
+/// Draws over the globe's picture in a framebuffer, as the window does. Texts are larger in higher pictures. The
+/// framebuffer is `unit_px` times as wide and high as `size`, and so are texts and lines in it. Fails if
 /// Dear ImGui finds no OpenGL, or if the picture has no room for the credits. Not within a frame of a window; at most
 /// one call at a time. thread: that of the OpenGL context
 [[nodiscard]] Status draw_over_picture(const Globe& globe, unsigned framebuffer, Viewport size,
-                                       const PictureOverlay& overlay);
+                                       const PictureOverlay& overlay, int unit_px = 1);
 
 }  // namespace terrella

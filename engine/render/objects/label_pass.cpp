@@ -137,14 +137,17 @@ void LabelPass::choose(const View& view, const LabelSight& sight, ShownLabels& s
 
 void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   const KeptLabel& label = ref.layer->labels()[ref.index];
-  const LineLook look = line_look(label.object.look);
+  const float scale = page.sight.pixel_scale;
+  const LineLook look = line_look(label.object.look, scale);
   const double away_m = glm::length(label.place_m - page.view.eye.xyz_m);
   const auto radius_px = static_cast<float>(label.object.radius_m / away_m * page.view.pixels_per_radian());
   const float half_height_px = lines_->half_height_px(look);
-  const TextWay way =
-      text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px), half_height_px);
+  TextWay way = text_way(label.object.look.anchor, std::max(0.5F * label.object.size_px, radius_px / scale),
+                         half_height_px / scale);
+  way.near_px *= scale;
+  way.down_px *= scale;
   const int halo_px = halo_margin_px(look.glyphs);
-  const glm::vec2 place(at_px), margin(std::max(kMargin_px, float(halo_px))), up(0.0F, half_height_px);
+  const glm::vec2 place(at_px), margin(std::max(scale * kMargin_px, float(halo_px))), up(0.0F, half_height_px);
   const glm::vec2 begin = place + glm::vec2(way.near_px, way.down_px);
   // Most labels of a crowd have no room where their text begins, so their text need not be measured.
   if (!page.room.is_free({begin - up - margin, begin + up + margin})) return;
@@ -156,7 +159,7 @@ void LabelPass::try_label(const LabelRef& ref, glm::dvec2 at_px, Page& page) {
   if (!page.room.take({text.low_px - margin, text.high_px + margin})) return;
   const bool over_ground = page.sight.limb != nullptr && !is_underground(label.object);
   const float share = over_ground ? share_before_ground(page.view, *page.sight.limb, label.place_m, text) : 1.0F;
-  const float reach_px = std::max(kLeastReach_px, std::abs(way.down_px) + half_height_px);
+  const float reach_px = std::max(scale * kLeastReach_px, std::abs(way.down_px) + half_height_px);
   const float baseline_px = -drop_px(look) - way.down_px;
   put(label, ref.layer->drawn(label.object.color, label), {line, halo_px, {left_px, baseline_px}, {share, reach_px}});
   page.shown.labels.push_back({ref.layer->serial(), ref.index, text});

@@ -28,6 +28,7 @@ struct LabelSight {
   glm::dvec3 hiding_half_axes_m{0.0};  ///< half axes of an opaque ellipsoid that hides labels; 0: none
   const Ellipsoid* limb = nullptr;     ///< texts stay within its disc where they can; null: anywhere
   bool shown = true;
+  float pixel_scale = 1.0F;         ///< pixels of the picture for each pixel of a label's sizes
   bool above_ground = true;         ///< true: all labels over the ground are visible
   bool chosen_above_ground = true;  ///< the same for labels with through_surface
 };
