@@ -53,6 +53,7 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
   draw_.restore(options.scene);
   for (const LayerRow& row : options.layers) {
     if (row.kind == LayerKind::objects) flights_.look_into(row.objects.file);
+    if (last_attribution_.empty()) last_attribution_ = row.attribution;
   }
   if (!options.flight.empty()) flights_.open(options.flight);
 }

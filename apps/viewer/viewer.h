@@ -202,12 +202,12 @@ class Viewer {
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels
   bool was_at_texels_ = false;
-  std::vector<UiBox> labels_;  ///< boxes of the labels of objects, graticule and map in the last frame
-  std::string last_attribution_;
-  std::string panels_text_;  ///< Ui::boxes_text() of the last frame
-  std::string job_text_;     ///< job() in the last frame
-  KeptSettings started_;     ///< settings at the start of the run
-  KeptSettings saved_;       ///< settings in the file
+  std::vector<UiBox> labels_;     ///< boxes of the labels of objects, graticule and map in the last frame
+  std::string last_attribution_;  ///< PanelStatus::last_attribution; at first that of a layer
+  std::string panels_text_;       ///< Ui::boxes_text() of the last frame
+  std::string job_text_;          ///< job() in the last frame
+  KeptSettings started_;          ///< settings at the start of the run
+  KeptSettings saved_;            ///< settings in the file
   std::string printed_camera_, printed_panels_;
 };
 

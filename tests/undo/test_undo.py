@@ -41,7 +41,10 @@ class Undo(WindowTest):
         wait_until(name, seen)
 
     def click(self, x, y):
+        """Clicks in the panel; then the pointer leaves it, because the tip of an item may cover the probe."""
         self.viewer.click(self.left + x, self.top + y)
+        self.viewer.settled()
+        self.viewer.move(5, 5)
         self.viewer.settled()
 
     def back_and_forth(self, name, before, after):
@@ -79,6 +82,7 @@ class Undo(WindowTest):
         self.shows("hidden", RED)  # the layer that returned has a row of its own
         self.viewer.key("ctrl+z")
         self.shows("shown", GREEN)
+        self.assertEqual([round(x) for x in self.viewer.panel("Layers")[:2]], [self.left, self.top], "the panel jumped")
 
 
 class StyleUndo(WindowTest):

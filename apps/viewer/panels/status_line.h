@@ -17,8 +17,8 @@ struct PanelStatus {
   bool is_fault = false;    ///< the message begins with a fault, which stays until Esc closes it
   std::string job;          ///< running job and its progress; may be empty
   std::string attribution;  ///< attribution of the visible layers; may be empty
-  /// The attribution that was last shown: while an opaque layer hides it, its room stays free, so that no panel jumps
-  /// under the pointer when it returns.
+  /// The attribution that was last shown, or will be: while an opaque layer hides it, its room stays free, so that no
+  /// panel jumps under the pointer when it comes.
   std::string last_attribution = {};
   std::optional<ScaleBar> scale;
 };
