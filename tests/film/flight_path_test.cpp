@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/film/film_plan.h"
 #include "apps/flight/flight_file.h"
