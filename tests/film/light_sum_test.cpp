@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace terrella {
 namespace {

@@ -78,10 +78,13 @@ class Supersample(Averages):
                 ("ground", (*bare, *self.objects("ground.json", ground=True, stroke="#ffffff", **{"stroke-width": 4})), bare),
                 ("dashes", (*bare, *self.objects("dashes.json", ground=True, stroke="#ffffff", **{
                     "stroke-width": 4, "stroke-dasharray": [9, 9]})), bare),
+                ("arrow heads", (*bare, *self.objects("arrow.json", stroke="#ffffff", **{
+                    "stroke-width": 4, "stroke-arrows": "both"})), bare),
                 ("marker", (*bare, *self.objects("marker.json", **{"marker-color": "#ffffff", "marker-size": 16})), bare),
                 ("smallest sphere", (*bare, *self.objects("sphere.json", **{"marker-color": "#ffffff", "radius_m": 10})), bare),
                 ("label", (*bare, *self.objects("label.json", title="mmmmmm", **{"marker-size": 4})), bare),
                 ("graticule", (*bare, "--graticule"), bare),
+                ("map", (*bare, "--map", "on"), bare),
                 ("scale bar", (*bare, "--scale-bar"), bare)]:
             with self.subTest(part):
                 added = []
@@ -90,7 +93,7 @@ class Supersample(Averages):
                     added.append(sum(abs(LIGHT[a] - LIGHT[b]) for row, rest in zip(one, other) for a, b in zip(row, rest)))
                 self.assertGreater(added[0], 1)
                 # A disc of two pixels meets the middles of one to four.
-                self.assertAlmostEqual(added[1] / added[0], 1, delta=0.5 if part == "smallest sphere" else 0.1)
+                self.assertAlmostEqual(added[1] / added[0], 1, delta=0.5 if part == "smallest sphere" else 0.15)
 
     def test_wrong_usage(self):
         for options, says in [(("--supersample", "0"), "it takes 1 to 4"), (("--supersample", "5"), "it takes 1 to 4"),
@@ -103,7 +106,7 @@ class Supersample(Averages):
 
 class MotionBlur(Averages):
     FLIGHT = {"type": "Feature",
-              "properties": {"duration_s": 2, "pitches": [-40, -25], "opacities": [1, 0.4],
+              "properties": {"duration_s": 1, "pitches": [-40, -25], "opacities": [1, 0.4],
                              "times": ["2026-06-21T08:00Z", "2026-06-21T16:00Z"]},
               "geometry": {"type": "LineString", "coordinates": [[5, 62, 900000], [10, 47, 300000]]}}
 
@@ -125,11 +128,10 @@ class MotionBlur(Averages):
         for options in (), ("--supersample", "2"):
             self.film("fine", *options, "--force", fps=16)
             blurred = self.film(f"blurred{len(options)}", "--motion-blur", "1", "--blur-moments", "4", *options)
-            self.assertEqual(len(blurred), 4)
-            for frame in (1, 3):
-                moments = [self.rows(f"fine/{8 * frame + off}.png") for off in (-3, -1, 1, 3)]
-                self.assertNotEqual(moments[0], moments[3])
-                self.assert_near(self.rows(f"blurred{len(options)}/{frame}.png"), mean_of(moments))
+            self.assertEqual(len(blurred), 2)
+            moments = [self.rows(f"fine/{8 + off}.png") for off in (-3, -1, 1, 3)]
+            self.assertNotEqual(moments[0], moments[3])
+            self.assert_near(self.rows(f"blurred{len(options)}/1.png"), mean_of(moments))
 
     def test_runs_and_shards_are_the_same_and_go_on(self):
         blur = "--motion-blur", "0.5", "--blur-moments", "3"
@@ -137,7 +139,7 @@ class MotionBlur(Averages):
         self.assertNotEqual(whole, self.film("plain"))
         for shard in "2/2", "1/2":
             self.film("parts", *blur, "--shard", shard)
-        (self.folder / "parts/2.png").unlink()
+        (self.folder / "parts/1.png").unlink()
         self.assertEqual(self.film("parts", *blur), whole)
         for other in ("--motion-blur", "0.6", *blur[2:]), (*blur[:3], "4"), (*blur, "--supersample", "2"), ():
             self.assert_fails(FAILED, *self.arguments("parts", *other), says=["film.json", "--force"])
