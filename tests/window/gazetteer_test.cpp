@@ -65,24 +65,24 @@ TEST(Gazetteer, NamesAPlaceByItsLargestNeighbour) {
   EXPECT_EQ(nearest(47.38, 8.54, 0.1), "Zürich");
   EXPECT_EQ(nearest(-17.7, 178.4, 1.0), nearest(-17.7, 178.4 - 360.0, 1.0));
   EXPECT_EQ(nearest(-40.0, -140.0, 2.0), "") << "the ocean";
-  ASSERT_TRUE(places->add_countries(TERRELLA_MAP));
+  ASSERT_TRUE(places->add_areas(TERRELLA_MAP));
   EXPECT_EQ(nearest(46.9, 8.2, 1.0), "Switzerland") << "seen whole";
   EXPECT_EQ(nearest(47.38, 8.54, 0.1), "Zürich") << "seen from nearby";
 }
 
-TEST(Gazetteer, CountriesOfTheMapAreFound) {
+TEST(Gazetteer, CountriesAndSeasOfTheMapAreFound) {
   auto places = Gazetteer::load(TERRELLA_PLACES);
   ASSERT_TRUE(places);
   const std::size_t cities = places->size();
-  ASSERT_TRUE(places->add_countries(TERRELLA_MAP));
+  ASSERT_TRUE(places->add_areas(TERRELLA_MAP));
   EXPECT_GT(places->size(), cities + 200U);
-  for (const char* name : {"india", "mexico", "Georgia"}) {
+  for (const char* name : {"india", "mexico", "Georgia", "black sea", "north", "Caspian"}) {
     const auto found = places->find(name, 3);
     ASSERT_FALSE(found.empty()) << name;
     EXPECT_GT(found[0]->area_km2, 0.0) << name << ": a city of this name, or a longer name, is first";
   }
   EXPECT_EQ(places->find("sant", 1)[0]->name, "Santiago") << "a dwarf of a country before a large city";
-  const auto missing = places->add_countries("nowhere.json");
+  const auto missing = places->add_areas("nowhere.json");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("nowhere.json"), std::string::npos);
 }

@@ -51,7 +51,7 @@ Result<Gazetteer> Search::load() const {
   try {
     auto places = Gazetteer::load(data_file("cities.json"));
     if (!places) return places;
-    if (Status added = places->add_countries(data_file("map.json")); !added) return added.error();
+    if (Status added = places->add_areas(data_file("map.json")); !added) return added.error();
     return places;
   } catch (const BrokenInstallation& broken) {
     return Error{broken.what()};
@@ -144,7 +144,7 @@ void Search::fly_to(const NamedPlace& place) {
   camera.heading = Angle{};
   camera.pitch = Angle::degrees(-90.0);
   context_.navigator.fly_to(camera, Input::now());
-  const Status marked = place.area_km2 > 0.0 ? Done{} : mark(place);  // a country has its name on the map
+  const Status marked = place.area_km2 > 0.0 ? Done{} : mark(place);  // an area has its name on the map
   if (!marked) return say(marked.error());
   say(full_name(place) + (sharp_m > wanted_m ? ". The imagery has no finer detail here; E adds more." : ""));
 }

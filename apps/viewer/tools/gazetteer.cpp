@@ -93,13 +93,13 @@ Result<nlohmann::json> read_object(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<NamedPlace> countries_of(const nlohmann::json& columns) {
-  std::vector<NamedPlace> countries;
+std::vector<NamedPlace> areas_of(const nlohmann::json& columns) {
+  std::vector<NamedPlace> areas;
   for (std::size_t k = 0; k < columns.at("name").size(); ++k) {
-    NamedPlace& country = countries.emplace_back(place_of_row(columns, k));
-    country.area_km2 = columns.at("km2").at(k).get<double>();
+    NamedPlace& area = areas.emplace_back(place_of_row(columns, k));
+    area.area_km2 = columns.at("km2").at(k).get<double>();
   }
-  return countries;
+  return areas;
 }
 
 double rank_of(const NamedPlace& place) { return std::max(place.people, kPeoplePerKm2 * place.area_km2); }
@@ -127,11 +127,13 @@ Result<Gazetteer> Gazetteer::load(const std::filesystem::path& file) {
 
 void Gazetteer::sort() { std::ranges::stable_sort(places_, std::ranges::greater{}, &rank_of); }
 
-Status Gazetteer::add_countries(const std::filesystem::path& map) {
+Status Gazetteer::add_areas(const std::filesystem::path& map) {
   const Result<nlohmann::json> json = read_object(map);
   if (!json) return json.error();
   try {
-    for (NamedPlace& country : countries_of(json->at("countries"))) places_.push_back(std::move(country));
+    for (const char* kind : {"countries", "seas"}) {
+      for (NamedPlace& area : areas_of(json->at(kind))) places_.push_back(std::move(area));
+    }
   } catch (const nlohmann::json::exception& wrong) {
     return Error{map.string() + ": not a map: " + wrong.what()};
   }

@@ -92,7 +92,7 @@ LabelLook faded(float text_px) {
 
 /// Countries are written in upright capitals; seas are slanted, and oceans thin and in capitals too.
 void add_areas(const Json& columns, bool are_seas, std::vector<MapName>& names) {
-  for (const NamedPlace& area : countries_of(columns)) {
+  for (const NamedPlace& area : areas_of(columns)) {
     const bool is_ocean = are_seas && area.area_km2 >= kOcean_km2;
     const double share = is_ocean ? kOceanShare : are_seas ? kSeaShare : kCountryShare;
     const auto& looks = are_seas ? kSeaLooks : kCountryLooks;
