@@ -387,7 +387,9 @@ void add_view_command(CLI::App& app, int& exit_code) {
                     "Print where panels and labels are, as JSON, to standard output each time this changes");
   command->get_option("--map")->default_str("on");
   command->add_flag("--fullscreen", options->full_screen, "Fill the screen; F returns to a window");
-  command->add_option("--flight", options->flight, "Flight to play with Y: GeoJSON, or the tours of a KML file")
+  command
+      ->add_option("--flight", options->flight,
+                   "Begin with the panel of this flight: GeoJSON, or the tours of a KML file")
       ->type_name("FILE");
   add_units_option(*command, options->units)->default_str("those of the last start, at first metric");
   command->footer(kHelpFooter);

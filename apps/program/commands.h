@@ -3,13 +3,11 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "apps/process/exit_code.h"
 #include "apps/program/scene_picture.h"
 #include "codecs/image.h"
 
 namespace terrella {
-
-/// Exit codes of every subcommand.
-enum ExitCode : int { kDone = 0, kFailed = 1, kWrongUsage = 2, kDoneInPart = 3 };
 
 /// Adds a subcommand to the program. A named subcommand runs at the end of the parse and stores its exit code in
 /// `exit_code`, which must outlive the parse. Throws CLI::ParseError on a wrong command line. thread: main

@@ -130,6 +130,7 @@ Status Film::render_frame(std::int64_t frame) {
   if (moments.size() > 1) light.emplace(command_.render.scene.size, 1);
   Image image;
   bool complete = true;
+  std::int64_t tiles = 0, heights = 0;  // the most that a moment lacks
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const FlightMoment& moment = moments[k];
     if (k == 0 || moment != moments[k - 1]) {
@@ -137,18 +138,20 @@ Status Film::render_frame(std::int64_t frame) {
       auto rendered = picture_->draw(moment.camera);
       if (!rendered) return rendered.error();
       count(frame, *rendered);
+      tiles = std::max<std::int64_t>(tiles, rendered->stats.tiles_missing + rendered->stats.tiles_pending);
+      heights = std::max<std::int64_t>(heights, heights_without(rendered->stats));
       complete = complete && is_complete(rendered->stats);
       image = std::move(rendered->image);
     }
     if (light) light->add(image);
   }
-  return write(frame, light ? light->mean() : image, complete);
+  tally_.tiles_missing += tiles;
+  tally_.heights_missing += heights;
+  return write(frame, light ? light->mean() : std::move(image), complete);
 }
 
 void Film::count(std::int64_t frame, const Rendered& rendered) {
   const FrameStats& stats = rendered.stats;
-  tally_.tiles_missing += stats.tiles_missing + stats.tiles_pending;
-  tally_.heights_missing += heights_without(stats);
   tally_.attributions.insert(rendered.attributions.begin(), rendered.attributions.end());
   for (std::string note : {memory_note(command_.render.scene.memory_mb, stats), font_note(stats)}) {
     if (!note.empty() && tally_.notes.insert(note).second) print_message("terrella render: {}\n", note);

@@ -179,15 +179,16 @@ void Input::on_further_button(int button, int action) {
   if (found != actions_.end()) queued_.push_back({.action = &*found});
 }
 
-// The globe gets no key that a panel took, except function keys and Esc, which closes the panel.
+// The globe gets no key that a panel took, except function keys, Esc, which closes the panel, and Ctrl with a digit,
+// which a text field keeps.
 void Input::on_key(int key, int action, int modifiers, bool taken) {
   repeating_ = action == GLFW_REPEAT;
   dirty_ = true;
-  if (action == GLFW_RELEASE || (taken && !is_function_key(key))) return;
+  const bool is_digit = key >= GLFW_KEY_1 && key <= GLFW_KEY_9, with_ctrl = (modifiers & GLFW_MOD_CONTROL) != 0;
+  const bool stores = is_digit && with_ctrl && !Ui::has_text_field();
+  if (action == GLFW_RELEASE || (taken && !is_function_key(key) && !stores)) return;
   if (const Action* found = action_of(key, modifiers); found != nullptr) return queue(*found);
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !repeating_) {
-    bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = (modifiers & GLFW_MOD_CONTROL) != 0};
-  }
+  if (is_digit && !repeating_) bookmark_ = {.number = key - GLFW_KEY_1 + 1, .set = with_ctrl};
 }
 
 // The row with the most modifiers that are held.

@@ -52,7 +52,7 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
       [this](DragStep step, glm::dvec2 at_px) { return swipe_.drag(step, at_px) || draw_.drag(step, at_px); });
   draw_.restore(options.scene);
   for (const LayerRow& row : options.layers) {
-    if (row.kind == LayerKind::objects) flights_.look_into(row.objects.file);
+    if (row.kind == LayerKind::objects) flights_.look_into(row.objects.file, false);
     if (last_attribution_.empty()) last_attribution_ = row.attribution;
   }
   if (!options.flight.empty()) flights_.open(options.flight);

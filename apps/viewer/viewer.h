@@ -146,7 +146,8 @@ class Viewer {
   Pictures pictures_{context_, [this] { return overlay(); }};
   Search search_{context_, options_.scene.places,
                  [this](const Geodetic& place) { return layers_.finest_texel_m(place); }};
-  BookmarkViews bookmarks_{context_, [this] { return search_.place_shown(); }};
+  BookmarkViews bookmarks_{context_, [this] { return search_.place_shown(); },
+                           [this] { flights_.refresh_bookmarks(); }};
   FrameGraph frame_graph_{context_};
   Layers layers_;
   OpenDialog open_{context_, [this](const std::filesystem::path& file) { open_file(file); }};

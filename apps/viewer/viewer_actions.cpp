@@ -80,10 +80,10 @@ void Viewer::click(glm::dvec2 at_px) {
 
 void Viewer::quit() { glfwSetWindowShouldClose(window_.handle(), GLFW_TRUE); }
 
-// Drawings that cannot be kept are told before they are lost.
+// Drawings that cannot be kept, and films, are told of before they are lost.
 bool Viewer::is_closed() {
   if (glfwWindowShouldClose(window_.handle()) == GLFW_FALSE && !projects_.next()) return false;
-  if (draw_.may_quit()) return true;
+  if (draw_.may_quit() && flights_.may_quit()) return true;
   glfwSetWindowShouldClose(window_.handle(), GLFW_FALSE);
   projects_.stay();
   panel_frames_ = kPanelFrames;  // shows the message

@@ -48,13 +48,13 @@ SceneOptions Viewer::scene() const {
 void Viewer::open_file(const std::filesystem::path& file) {
   if (is_project(file.string())) return projects_.open(file);
   layers_.open({.address = file.string()});
-  flights_.look_into(file);
+  flights_.look_into(file, true);
 }
 
-// False, with a message, if drawings or files that are being opened would be lost.
+// False, with a message, if drawings, a film or files that are being opened would be lost.
 bool Viewer::may_leave() {
   panel_frames_ = kPanelFrames;  // shows the message
-  if (!draw_.may_quit()) return false;
+  if (!draw_.may_quit() || !flights_.may_quit()) return false;
   if (layers_.job().empty()) return true;
   messages_.say("A file is still being opened. Wait for it, or leave it out with Esc.");
   return false;
@@ -62,7 +62,7 @@ bool Viewer::may_leave() {
 
 // Files that are not open yet go along with those that the user sends to the body.
 bool Viewer::open_on_globe(const Body& body, std::vector<SourceOptions> files) {
-  if (!draw_.may_quit()) return false;
+  if (!draw_.may_quit() || !flights_.may_quit()) return false;
   std::ranges::move(layers_.leave_off(), std::back_inserter(files));
   projects_.leave_for({.body = body, .layers = std::move(files)});
   return true;

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <tuple>
 #include <utility>
 
 namespace terrella {
@@ -82,6 +83,8 @@ void MapLabels::forget_shown() {
   std::ranges::fill(wait_, std::uint8_t{0});
 }
 
+void MapLabels::take_back() { std::tie(shown_, wait_) = std::move(before_); }
+
 std::vector<ShownName> MapLabels::place(const View& view, const Ground& ground, const LabelPage& page) {
   LabelRoom room(view.viewport);
   for (const LabelBox& box : page.taken) {
@@ -114,6 +117,7 @@ std::vector<ShownName> MapLabels::place(const View& view, const Ground& ground, 
       break;
     }
   }
+  before_ = {shown_, wait_};
   for (std::size_t k = 0; k < now.size(); ++k) {
     if (wait_[k] > 0) --wait_[k];
     if (now[k] == Side::hidden && shown_[k] != Side::hidden) wait_[k] = kWait;

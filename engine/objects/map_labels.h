@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "objects/label_layout.h"
@@ -53,6 +54,8 @@ class MapLabels {
   [[nodiscard]] std::vector<ShownName> place(const View& view, const Ground& ground, const LabelPage& page);
   /// Forgets the names of the last picture, which keep their places in the next one.
   void forget_shown();
+  /// Forgets the names of the last place(), so that the same picture can be placed again.
+  void take_back();
   /// Returns the pixel of a name's place on the ground; nothing if it is behind the eye.
   [[nodiscard]] std::optional<glm::dvec2> place_px(std::size_t name, const View& view, const Ground& ground) const;
 
@@ -68,9 +71,10 @@ class MapLabels {
 
   Ellipsoid ellipsoid_;
   std::vector<MapName> names_;
-  std::vector<EcefDir> normals_;    ///< per name
-  std::vector<Ecef> places_;        ///< per name, on the ellipsoid
-  std::vector<Side> shown_;         ///< per name, in the last picture
+  std::vector<EcefDir> normals_;                                    ///< per name
+  std::vector<Ecef> places_;                                        ///< per name, on the ellipsoid
+  std::pair<std::vector<Side>, std::vector<std::uint8_t>> before_;  ///< shown_ and wait_ before the last place()
+  std::vector<Side> shown_;                                         ///< per name, in the last picture
   std::vector<std::uint8_t> wait_;  ///< per name: pictures of a moving camera without a name that vanished
 };
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <tuple>
 
 #include "base/iso_time.h"
@@ -143,10 +144,12 @@ class StyleReader {
     if (!value->is_string()) return complain_("\"text-font\" must be a font's name, such as Noto Sans Bold Italic");
     std::string name = value->get<std::string>();
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto has = [&name](const char* word) { return name.find(word) != std::string::npos; };
-    if (has("light") || has("thin")) look.weight = TextWeight::light;
-    if (has("bold") || has("black") || has("heavy")) look.weight = TextWeight::bold;
-    look.slanted = has("italic") || has("oblique");
+    static const std::regex light("(^|[ -])(extra|semi|demi|ultra)?(light|thin)(italic|oblique)?($|[ -])");
+    static const std::regex bold("(^|[ -])(extra|semi|demi|ultra)?(bold|black|heavy)(italic|oblique)?($|[ -])");
+    static const std::regex slanted("(italic|oblique)($|[ -])");
+    if (std::regex_search(name, light)) look.weight = TextWeight::light;
+    if (std::regex_search(name, bold)) look.weight = TextWeight::bold;
+    look.slanted = std::regex_search(name, slanted);
   }
 
   /// An instant of ISO 8601, also a year or a month alone, or with the slashes of GDAL; or milliseconds since 1970.

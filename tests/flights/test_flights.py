@@ -9,9 +9,11 @@ from pathlib import Path
 from real_window import PROGRAM, WindowTest, wait_until
 
 BUTTONS, SAVE = 90, 223  # pixels under the panel's upper edge
+SAVE_RUNNING = 245  # the same, of "Cancel film"
 PLAY, START, SAVE_FILM, SAVE_FLIGHT = 30, 80, 40, 120  # pixels from its left edge
 FIRST, LAST = (10.0, 20.0, 3.0e6), (16.0, 24.0, 2.0e6)  # latitude, longitude, height of the tour's views
 SECONDS = 1.5
+FRAMES = 45
 
 
 def tour():
@@ -48,15 +50,14 @@ class Flights(WindowTest):
         self.viewer = self.start("--camera", "10,20,3000000", "--unlit")
         self.viewer.key("y")
         self.viewer.panel("Flight")  # without two bookmarks it says how to make them
-        self.viewer.key("y")
         self.viewer.key("ctrl+1")
         self.viewer.settled()
-        self.viewer.key("Up")
+        self.viewer.wheel(560, 300, 2)
         self.viewer.next_camera()
         self.viewer.key("ctrl+2")
         self.viewer.settled()
         second = (self.viewer.camera.lat, self.viewer.camera.lon, self.viewer.camera.height_m)
-        self.viewer.key("y")
+        wait_until("the flight", lambda: self.viewer.panel("Flight")[3] > 200)
         for _ in range(2):
             self.fly(second)
         self.viewer.save_grab(self.folder / "panel.png")
@@ -86,15 +87,42 @@ class Flights(WindowTest):
         self.assertEqual(flight["properties"]["times_s"], [0, SECONDS])
         self.click_in(SAVE_FILM, SAVE)
         folder = wait_until("the film's folder", lambda: list(self.folder.glob("terrella-*-film")))[0]
-        wait_until("the film", lambda: len(list(folder.glob("*.png"))) == round(SECONDS * 30))
+        wait_until("the film", lambda: len(list(folder.glob("*.png"))) == FRAMES)
         wait_until("its end", lambda: not self.film_runs())
-        self.viewer.key("y")
         # A frame is the picture of its view.
         lat, lon, height = FIRST
         subprocess.run([PROGRAM, "render", folder / "scene.terrella", "--camera", f"{lat},{lon},{height}", "--size",
-                        "{}x{}".format(*self.viewer.size), "-o", self.folder / "first.png"], check=True, timeout=60,
+                        "{}x{}".format(*self.viewer.size), "--credits", "-o", self.folder / "first.png"], check=True, timeout=60,
                        env=self.viewer.environment, stdout=subprocess.DEVNULL)
         self.assertEqual((folder / "00000.png").read_bytes(), (self.folder / "first.png").read_bytes())
+
+    def test_a_film_is_cancelled_and_its_command_goes_on(self):
+        self.folder /= "100 %"  # a name with the sign of frames' numbers
+        self.folder.mkdir()
+        (self.folder / "tour.kml").write_text(tour(), encoding="utf-8")
+        self.viewer = self.start("--camera", "0,0,5000000", "--unlit", "--flight", "tour.kml", "--cache", "off")
+        self.viewer.panel("Flight")
+        self.click_in(SAVE_FILM, SAVE)
+        folder = wait_until("the film's folder", lambda: list(self.folder.glob("terrella-*-film")))[0]
+        wait_until("a frame", lambda: list(folder.glob("*.png")))
+        self.viewer.xdotool("key", "--delay", "200", "Escape", "Escape")  # closes the panel, and asks to quit
+        self.assertTrue(self.film_runs(), "Esc has no effect on a film")
+        self.viewer.key("Escape")
+        time.sleep(0.5)
+        self.assertIsNone(self.viewer.program.poll(), "a film is lost without a question")
+        self.viewer.key("y")
+        self.viewer.panel("Flight")
+        self.click_in(SAVE_FILM, SAVE_RUNNING)  # Cancel film
+        wait_until("the end", lambda: not self.film_runs())
+        there = len(list(folder.glob("*.png")))
+        self.assertLess(there, FRAMES)
+        command = (folder / "film.log").read_text(encoding="utf-8").splitlines()[0].split()
+        self.assertIn("--cache off", " ".join(command))
+        done = subprocess.run([PROGRAM, *command[1:]], cwd=self.folder, env=self.viewer.environment, timeout=120,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{there} kept", done.stdout)
+        self.assertEqual(len(list(folder.glob("*.png"))), FRAMES)
 
     def film_runs(self):
         children = Path(f"/proc/{self.viewer.program.pid}/task/{self.viewer.program.pid}/children")

@@ -200,7 +200,11 @@ TEST(FeatureStyle, NamesOfFontsHaveWeightsAndSlants) {
   EXPECT_EQ(look(R"("Open Sans Bold")"), std::pair(TextWeight::bold, false));
   EXPECT_EQ(look(R"(["match",["get","pop"],75,"Sans Semibold Italic","Sans"])"), std::pair(TextWeight::bold, true));
   EXPECT_EQ(look(R"(["Roboto Thin"])"), std::pair(TextWeight::light, false));
-  EXPECT_EQ(look(R"("DejaVu Sans")"), std::pair(TextWeight::regular, false));
+  EXPECT_EQ(look(R"("Inter ExtraLight")"), std::pair(TextWeight::light, false));
+  EXPECT_EQ(look(R"("Sans-BoldItalic")"), std::pair(TextWeight::bold, true));
+  for (const char* plain : {R"("DejaVu Sans")", R"("Highlight Sans")", R"("Blackadder")"}) {
+    EXPECT_EQ(look(plain), std::pair(TextWeight::regular, false)) << plain;
+  }
   EXPECT_FALSE(FeatureStyle::parse(R"({"text-font":["sum",1]})", "style"));
 }
 

@@ -12,9 +12,13 @@
 #include <csignal>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "apps/process/exit_code.h"
+#include "apps/process/write_file.h"
 
 namespace terrella {
 namespace {
@@ -37,30 +41,43 @@ std::optional<int> percent_in(const std::string& line) {
 
 Result<std::unique_ptr<FilmJob>> FilmJob::start(const fs::path& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"terrella", "render"});
+  const std::string log = (folder / kLog).string();
+  const std::string command = fmt::format("{}\n", fmt::join(arguments, " "));
+  if (Status written = write_file(log, std::as_bytes(std::span(command))); !written) return written.error();
   std::vector<char*> words;
   words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
-  const std::string log = (folder / kLog).string();
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644);
-  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_APPEND, 0);
   std::unique_ptr<FilmJob> job(new FilmJob(folder));
   const int refused = posix_spawn(&job->pid_, "/proc/self/exe", &files, nullptr, words.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (refused == 0) return job;
   job->pid_ = 0;
-  return Error{
-      fmt::format("{}: no film can be started: {}", folder.string(), std::generic_category().message(refused))};
+  return Error{"No film can be started: " + std::generic_category().message(refused)};
 }
 
 FilmJob::~FilmJob() {
   if (pid_ == 0) return;
+  stop();
+  static_cast<void>(wait());
+}
+
+void FilmJob::stop() {
+  stopped_ = true;
   kill(pid_, SIGTERM);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+}
+
+int FilmJob::wait() {
+  int state = 0;
+  while (waitpid(pid_, &state, 0) < 0 && errno == EINTR) {
   }
+  pid_ = 0;
+  return state;
 }
 
 std::vector<std::string> FilmJob::messages() const {
@@ -70,10 +87,12 @@ std::vector<std::string> FilmJob::messages() const {
   return lines;
 }
 
-int FilmJob::percent() const {
-  int percent = 0;
-  for (const std::string& line : messages()) percent = std::max(percent, percent_in(line).value_or(0));
-  return percent;
+int FilmJob::percent() {
+  std::error_code unknown;
+  const std::uintmax_t bytes = fs::file_size(folder_ / kLog, unknown);
+  if (unknown || std::exchange(read_bytes_, bytes) == bytes) return percent_;
+  for (const std::string& line : messages()) percent_ = std::max(percent_, percent_in(line).value_or(0));
+  return percent_;
 }
 
 bool FilmJob::has_ended() const {
@@ -81,15 +100,16 @@ bool FilmJob::has_ended() const {
   return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0;
 }
 
-Status FilmJob::end() {
-  int state = 0;
-  while (waitpid(pid_, &state, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = 0;
-  if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return Done{};
+Result<std::string> FilmJob::end() {
+  const int state = wait();
+  const std::string name = folder_.filename().string();
+  if (stopped_) return fmt::format("Film cancelled; {}/{} has the command that goes on", name, kLog);
+  if (WIFEXITED(state) && WEXITSTATUS(state) == kDone) return "The film is in " + name;
+  if (WIFEXITED(state) && WEXITSTATUS(state) == kDoneInPart)
+    return fmt::format("The film is in {}, but lacks something; {}/{} says what", name, name, kLog);
   std::vector<std::string> said = messages();
   std::erase_if(said, [](const std::string& line) { return line.empty() || percent_in(line); });
-  return Error{said.empty() ? folder_.string() + ": the film ended without a message" : said.back()};
+  return Error{fmt::format("No film is in {}: {}", name, said.size() < 2 ? "it ended without a message" : said.back())};
 }
 
 }  // namespace terrella

@@ -20,6 +20,7 @@
 #include "geo/body.h"
 #include "streaming/georeference/figure.h"
 #include "streaming/objects/vector/kml_file.h"
+#include "view/flight.h"
 
 namespace terrella {
 namespace {
@@ -43,14 +44,28 @@ fs::path new_name(const char* ending) {
   return new_file_name(fs::current_path(unknown), std::chrono::system_clock::now(), ending);
 }
 
-std::vector<FlightPath> flight_through(const std::vector<Camera>& views) {
-  std::vector<FlightMoment> keyframes;
-  keyframes.reserve(views.size());
-  for (const Camera& view : views) {
-    if (view.eye.height_m > 0.0) keyframes.push_back({.camera = view});
+/// The way through views as the window flies to bookmarks, but slower and with a rest at each. Without the views below
+/// the ellipsoid, which a flight has not.
+std::vector<FlightPath> flight_through(std::vector<Camera> views, const Ellipsoid& body) {
+  constexpr double kSlower = 4.0, kRest_s = 1.0;
+  constexpr int kSteps = 16;  // of a way that climbs
+  std::erase_if(views, [](const Camera& view) { return view.eye.height_m <= 0.0; });
+  if (views.size() < 2) return {};
+  std::vector<double> times{0.0};
+  std::vector<FlightMoment> keyframes{{.camera = views.front()}};
+  for (std::size_t k = 1; k < views.size(); ++k) {
+    const terrella::Flight way = plan_flight(views[k - 1], views[k], body);
+    const double begin_s = times.back();
+    for (int step = 1; step <= kSteps; ++step) {
+      const Seconds at = way.duration * double(step) / double(kSteps);
+      times.push_back(begin_s + kSlower * at.count());
+      keyframes.push_back({.camera = flight_camera(way, at)});
+    }
+    if (k + 1 == views.size()) break;
+    times.push_back(times.back() + kRest_s);
+    keyframes.push_back(keyframes.back());
   }
-  if (keyframes.size() < 2) return {};
-  return {FlightPath(even_pace(keyframes), keyframes)};
+  return {FlightPath(std::move(times), keyframes)};
 }
 
 }  // namespace
@@ -58,61 +73,87 @@ std::vector<FlightPath> flight_through(const std::vector<Camera>& views) {
 void Flights::open(const fs::path& file) {
   Result<FlightFile> read = read_flight(file);
   if (!read) return context_.messages.report(read.error().message);
-  take(file.filename().string(), *std::move(read));
+  take(add(file, *std::move(read)));
   if (!is_open()) toggle();
 }
 
-void Flights::take(const std::string& name, FlightFile file) {
-  add({.name = name, .paths = std::move(file.paths)});
-  for (const std::string& complaint : file.complaints) context_.messages.report(complaint);
+int Flights::add(const fs::path& file, FlightFile read) {
+  for (const std::string& complaint : read.complaints) context_.messages.report(complaint);
+  const auto same = std::ranges::find(flights_, file, &Flight::file);
+  const int index = static_cast<int>(same - flights_.begin());
+  if (index == chosen_) play(false);
+  if (same == flights_.end()) {
+    flights_.push_back({file, std::move(read.paths)});
+  } else {
+    same->paths = std::move(read.paths);
+  }
+  return index;
 }
 
-void Flights::add(Flight flight) {
+void Flights::take(int flight) {
   play(false);
-  const auto same = std::ranges::find(flights_, flight.name, &Flight::name);
-  chosen_ = static_cast<int>(same - flights_.begin());
-  if (same == flights_.end()) {
-    flights_.push_back(std::move(flight));
-  } else {
-    *same = std::move(flight);
-  }
+  chosen_ = flight;
   time_s_ = 0.0;
 }
 
-void Flights::look_into(const fs::path& file) {
+void Flights::look_into(const fs::path& file, bool tell) {
   if (!is_kml_name(file) || are_two_bodies(context_.globe.options().body, earth())) return;
-  looked_.push_back({file.filename().string(), std::async(std::launch::async, [file] {
+  looked_.push_back({file, tell, std::async(std::launch::async, [file] {
                        Result<FlightFile> read = read_flight(file);
                        glfwPostEmptyEvent();
                        return read;
                      })});
 }
 
-// A file without tours is the usual one; one that cannot be read is told of by the layer.
+// Most files have no tours, and the layer tells of a file that cannot be read.
 void Flights::take_tours() {
   if (calls_.opening()) return;
   std::erase_if(looked_, [this](Looked& looked) {
     if (!looked.has_come()) return false;
     Result<FlightFile> read = looked.file.get();
     if (!read || read->paths.empty()) return true;
-    take(looked.name, *std::move(read));
-    say(looked.name + " has a tour: Y plays it");
+    const int index = add(looked.path, *std::move(read));
+    if (!playing_ && chosen_ == 0) take(index);
+    if (looked.tell) say(looked.path.filename().string() + " has a tour: Y opens it");
     return true;
   });
 }
 
 void Flights::take_film() {
-  if (!film_ || !film_->has_ended()) return;
-  const Status ended = film_->end();
-  const std::string folder = std::exchange(film_, nullptr)->folder().filename().string();
-  ended ? say("The film is in " + folder) : context_.messages.report(ended.error().message);
+  if (!film_) return;
+  film_text_ = film_->is_stopped() ? "The film ends" : fmt::format("Film: {} %", film_->percent());
+  if (!film_->has_ended()) return;
+  const Result<std::string> ended = std::exchange(film_, nullptr)->end();
+  film_text_.clear();
+  ended ? say(*ended) : context_.messages.report(ended.error().message);
+}
+
+bool Flights::may_quit() {
+  if (!film_ || film_->is_stopped() || std::exchange(warned_, true)) return true;
+  say("A film is being rendered. Quit again to cancel it.");
+  return false;
+}
+
+void Flights::refresh_bookmarks() {
+  if (chosen_ == 0) play(false);
+  flights_.front().paths = flight_through(calls_.bookmarks(), context_.globe.options().body.ellipsoid);
+  if (chosen_ == 0 && !chosen().paths.empty()) time_s_ = std::min(time_s_, duration_s(chosen().paths));
 }
 
 void Flights::toggled() {
-  if (!is_open()) return play(false);
-  flights_.front().paths = flight_through(calls_.bookmarks());
-  if (chosen().paths.empty() && flights_.size() > 1) chosen_ = static_cast<int>(flights_.size()) - 1;
-  time_s_ = std::min(time_s_, chosen().paths.empty() ? 0.0 : duration_s(chosen().paths));
+  play(false);
+  if (!is_open()) return restore_scene();
+  refresh_bookmarks();
+  if (chosen().paths.empty()) take(static_cast<int>(flights_.size()) - 1);
+}
+
+void Flights::restore_scene() {
+  if (!before_) return;
+  SurfaceLook surface = context_.globe.options().surface;
+  surface.alpha = before_->surface_alpha;
+  context_.globe.set_surface(surface);
+  if (const Status set = context_.globe.set_time(before_->time); !set) say(set.error());
+  before_.reset();
 }
 
 void Flights::play(bool on) {
@@ -123,7 +164,7 @@ void Flights::play(bool on) {
   go(time_s_);
 }
 
-// A motion that the user has begun goes on.
+// The user's own motion goes on.
 void Flights::stand() {
   if (context_.navigator.is_led()) context_.navigator.set_camera(context_.navigator.camera());
 }
@@ -133,6 +174,7 @@ void Flights::go(double time_s) {
   const FlightMoment moment = moment_at(chosen().paths, time_s);
   playing_ ? context_.navigator.lead(moment.camera) : context_.navigator.set_camera(moment.camera);
   const GlobeOptions& globe = context_.globe.options();
+  if (!before_ && (moment.surface_alpha || moment.sun)) before_ = {globe.surface.alpha, globe.time};
   if (moment.surface_alpha && *moment.surface_alpha != globe.surface.alpha) {
     SurfaceLook surface = globe.surface;
     surface.alpha = *moment.surface_alpha;
@@ -154,25 +196,14 @@ void Flights::advance(Seconds now) {
   moved_ = now;
   const double last_s = duration_s(chosen().paths);
   double time_s = time_s_ + step_s * kFlightSpeeds[static_cast<std::size_t>(speed_)];
-  if (time_s >= last_s && loops_) time_s = std::fmod(time_s, std::max(last_s, kLongestStep_s));
+  if (time_s >= last_s && loops_ && last_s > 0.0) time_s = std::fmod(time_s, last_s);
   playing_ = time_s < last_s;
   go(std::min(time_s, last_s));
 }
 
 bool Flights::changed() const {
   if (film_ && film_->has_ended()) return true;
-  return std::ranges::any_of(looked_, [](const Looked& looked) { return looked.has_come(); });
-}
-
-std::string Flights::job() const {
-  return film_ ? fmt::format("Film: {} %; Esc cancels", film_->percent()) : std::string();
-}
-
-bool Flights::cancel() {
-  if (!film_) return false;
-  const std::string folder = std::exchange(film_, nullptr)->folder().filename().string();
-  say("Film cancelled; what there is of it is in " + folder);
-  return true;
+  return !calls_.opening() && std::ranges::any_of(looked_, &Looked::has_come);
 }
 
 void Flights::draw_open(float foot) {
@@ -195,23 +226,20 @@ void Flights::draw_open(float foot) {
 }
 
 void Flights::draw_choice() {
-  const int before = chosen_;
-  const std::string shown = panel_text(chosen().name);
+  int wanted = chosen_;
+  const std::string shown = panel_text(chosen().name());
   if (ImGui::BeginCombo("Flight", shown.c_str())) {
     for (std::size_t k = 0; k < flights_.size(); ++k) {
       ImGui::PushID(static_cast<int>(k));
-      if (ImGui::Selectable(panel_text(flights_[k].name).c_str(), chosen_ == static_cast<int>(k))) {
-        chosen_ = static_cast<int>(k);
-      }
+      const bool is_chosen = chosen_ == static_cast<int>(k);
+      if (ImGui::Selectable(panel_text(flights_[k].name()).c_str(), is_chosen)) wanted = static_cast<int>(k);
       ImGui::PopID();
     }
     ImGui::EndCombo();
   }
   tip("A way through the bookmarks in the order of their numbers, without views under the ground; or the tour of a "
       "file.");
-  if (chosen_ == before) return;
-  play(false);
-  time_s_ = 0.0;
+  if (wanted != chosen_) take(wanted);
 }
 
 void Flights::draw_play() {
@@ -246,14 +274,15 @@ void Flights::draw_film() {
   ImGui::Combo("Rate", &rate_, kFilmRateNames.data(), static_cast<int>(kFilmRateNames.size()));
   choose("Kind", one_file_, kFilmKinds);
   if (film_) {
-    write_wrapped(job());
+    write_wrapped(film_text_);
+    if (ImGui::Button("Cancel film") || entered()) film_->stop();
   } else if (ImGui::Button("Save film") || entered()) {
     save_film();
   }
   tip("Renders the film in the window's size beside the window's work, into a new folder where the program was "
       "started. "
       "Each frame has all its tiles.");
-  if (!film_) beside_if_room("Save flight");
+  beside_if_room("Save flight");
   if (ImGui::Button("Save flight") || entered()) save_flight();
   tip("Saves the flight as GeoJSON, which terrella render --flight and preload --flight read.");
 }
@@ -264,27 +293,50 @@ void Flights::save_flight() {
   saved ? say("Saved " + file.filename().string()) : say(saved.error());
 }
 
-// The folder has all that the film is made from, so that the command can be repeated.
+// The names are as the process's own folder sees them, so that the command in film.log goes on with the film there.
 void Flights::save_film() {
-  const fs::path folder = new_name("-film");
+  const fs::path whole = new_name("-film"), folder = whole.filename();
   std::error_code failed;
   fs::create_directory(folder, failed);
-  if (failed) return say(Error{folder.string() + ": cannot be made: " + failed.message()});
+  if (failed) return say(Error{whole.string() + " cannot be made: start the program in a folder that can be written"});
   const SceneOptions scene = calls_.scene();
-  const ProjectText project = project_text(scene, folder);
+  const ProjectText project = project_text(scene, whole);
+  for (const std::string& left_out : project.left_out) context_.messages.report("Not in the film: " + left_out);
   const fs::path scene_file = folder / "scene.terrella", flight_file = folder / "flight.geojson";
   Status saved = write_text(scene_file, project.text);
   if (saved) saved = write_text(flight_file, flight_text(chosen().paths));
-  if (!saved) return say(saved.error());
-  const Viewport size = scene.size;
-  const int by = one_file_ ? 2 : 1;  // a film in MP4 has even sides
-  auto film = FilmJob::start(folder, {scene_file.string(), "--flight", flight_file.string(), "--fps",
-                                      std::to_string(kFilmRates[static_cast<std::size_t>(rate_)]), "--size",
-                                      fmt::format("{}x{}", size.width_px / by * by, size.height_px / by * by), "-o",
-                                      (folder / (one_file_ ? "film.mp4" : "%05d.png")).string()});
-  if (!film) return say(film.error());
+  auto film = saved ? FilmJob::start(folder, film_arguments(scene, scene_file, flight_file)) : saved.error();
+  if (!film) {
+    fs::remove_all(folder, failed);
+    return say(film.error());
+  }
   film_ = *std::move(film);
-  for (const std::string& left_out : project.left_out) context_.messages.report(left_out);
+  warned_ = false;
+}
+
+std::vector<std::string> Flights::film_arguments(const SceneOptions& scene, const fs::path& scene_file,
+                                                 const fs::path& flight_file) const {
+  const int by = one_file_ ? 2 : 1;  // a film in MP4 has even sides
+  const fs::path output = scene_file.parent_path() / (one_file_ ? "film.mp4" : "%05d.png");
+  std::vector<std::string> arguments = {
+      scene_file.string(),
+      "--flight",
+      flight_file.string(),
+      "--fps",
+      std::to_string(kFilmRates[static_cast<std::size_t>(rate_)]),
+      "--size",
+      fmt::format("{}x{}", scene.size.width_px / by * by, scene.size.height_px / by * by),
+      "--credits",
+      "--memory",
+      std::to_string(scene.memory_mb),
+      "--cache-size",
+      std::to_string(scene.base.cache_size_mb),
+      "--timeout",
+      fmt::format("{}", scene.base.timeout_s)};
+  if (!scene.base.cache.empty()) arguments.insert(arguments.end(), {"--cache", scene.base.cache});
+  if (scene.base.offline) arguments.emplace_back("--offline");
+  arguments.insert(arguments.end(), {"-o", output.string()});
+  return arguments;
 }
 
 }  // namespace terrella

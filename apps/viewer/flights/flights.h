@@ -26,29 +26,34 @@ struct FlightCalls {
 };
 
 /// Plays flights: through the bookmarks, or the tours of opened files; saves them, and has films of them rendered. Owns
-/// the panel. A user who moves the globe pauses the flight. thread: main for every call
+/// the panel. A user who moves the globe pauses the flight. Opacity and time of the flight end with the panel. thread:
+/// main for every call
 class Flights : public Panel {
  public:
   Flights(const ViewerContext& context, FlightCalls calls) : Panel(context, "Flight"), calls_(std::move(calls)) {}
 
   /// Adds the flight of a file, chooses it and opens the panel. A file that cannot be read is reported.
   void open(const std::filesystem::path& file);
-  /// Looks for tours in a file of KML, beside the window's work; adds and chooses those that there are.
-  void look_into(const std::filesystem::path& file);
+  /// Looks for tours in a file of KML, beside the window's work, and adds them. They are told of if `tell`.
+  void look_into(const std::filesystem::path& file, bool tell);
+  void refresh_bookmarks();
+  /// False once, with a message, if a film would be cancelled.
+  [[nodiscard]] bool may_quit();
   /// Moves the globe's camera on, and takes the ends of work beside the window. Call it once per frame.
   void advance(Seconds now);
 
   [[nodiscard]] bool changed() const override;
-  [[nodiscard]] std::string job() const override;
-  bool cancel() override;
+  [[nodiscard]] std::string job() const override { return film_text_; }
 
  private:
   struct Flight {
-    std::string name;
+    std::filesystem::path file{};   ///< empty: the bookmarks
     std::vector<FlightPath> paths;  ///< empty: there are too few bookmarks
+    [[nodiscard]] std::string name() const { return file.empty() ? "Bookmarks" : file.filename().string(); }
   };
   struct Looked {
-    std::string name;
+    std::filesystem::path path;
+    bool tell = true;
     std::future<Result<FlightFile>> file;
     [[nodiscard]] bool has_come() const { return file.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
   };
@@ -58,18 +63,26 @@ class Flights : public Panel {
   void draw_play();
   void draw_film();
   [[nodiscard]] Flight& chosen() { return flights_[static_cast<std::size_t>(chosen_)]; }
-  void add(Flight flight);
+  struct Scene {
+    double surface_alpha;
+    std::optional<UtcTime> time;
+  };
+  int add(const std::filesystem::path& file, FlightFile read);
+  void take(int flight);
   void take_tours();
   void take_film();
-  void take(const std::string& name, FlightFile file);
+  void restore_scene();
   void play(bool on);
   void stand();
   void go(double time_s);
   void save_flight();
   void save_film();
+  [[nodiscard]] std::vector<std::string> film_arguments(const SceneOptions& scene,
+                                                        const std::filesystem::path& scene_file,
+                                                        const std::filesystem::path& flight_file) const;
 
   FlightCalls calls_;
-  std::vector<Flight> flights_{{.name = "Bookmarks", .paths = {}}};
+  std::vector<Flight> flights_{{.file = {}, .paths = {}}};
   int chosen_ = 0;
   double time_s_ = 0.0;
   bool playing_ = false, loops_ = false;
@@ -79,6 +92,9 @@ class Flights : public Panel {
   int rate_ = 2;           ///< index of the numbers of frames a second
   bool one_file_ = false;  ///< the film is an MP4
   std::unique_ptr<FilmJob> film_;
+  std::string film_text_;        ///< progress of the film; empty without one
+  bool warned_ = false;          ///< may_quit() has told of the film
+  std::optional<Scene> before_;  ///< the scene before a flight changed it
 };
 
 }  // namespace terrella

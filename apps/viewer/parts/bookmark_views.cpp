@@ -53,6 +53,7 @@ void BookmarkViews::keep(const std::string& done) const {
   const Status saved =
       file ? bookmarks_.save(*file) : Status(Error{"Bookmarks last until the window closes, because HOME is not set"});
   saved ? say(done) : say(saved.error());
+  changed_();
 }
 
 void BookmarkViews::draw_open(float foot) {

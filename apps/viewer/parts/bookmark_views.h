@@ -15,9 +15,10 @@ namespace terrella {
 /// Saves views under numbers and names, and flies to them. Owns the bookmarks and their panel. thread: main
 class BookmarkViews : public Panel {
  public:
-  /// `place_shown`: name of the place in the middle of the view; empty if none is known.
-  BookmarkViews(const ViewerContext& context, std::function<std::string()> place_shown)
-      : Panel(context, "Bookmarks"), place_shown_(std::move(place_shown)) {}
+  /// `place_shown`: name of the place in the middle of the view; empty if none is known. `changed` is called after each
+  /// change.
+  BookmarkViews(const ViewerContext& context, std::function<std::string()> place_shown, std::function<void()> changed)
+      : Panel(context, "Bookmarks"), place_shown_(std::move(place_shown)), changed_(std::move(changed)) {}
 
   // `number` in [1, Bookmarks::kMost].
   void fly_to(int number);
@@ -36,6 +37,7 @@ class BookmarkViews : public Panel {
   void keep(const std::string& done) const;
 
   std::function<std::string()> place_shown_;
+  std::function<void()> changed_;
   Bookmarks bookmarks_;
   BookmarkEdit edit_;
   std::optional<std::pair<int, Bookmark>> removed_;  ///< by the last removal

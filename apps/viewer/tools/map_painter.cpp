@@ -106,7 +106,11 @@ std::vector<UiBox> MapPainter::draw_names(const Globe& globe, const View& view, 
   }
   // Both eyes see the same names.
   std::vector<ShownName> shown;
-  texts_->with_room([&] { shown = labels_.place(eyes.front().view, ground, page); });
+  bool again = false;
+  texts_->with_room([&] {
+    if (std::exchange(again, true)) labels_.take_back();
+    shown = labels_.place(eyes.front().view, ground, page);
+  });
   std::vector<UiBox> boxes;
   for (const auto& [eye, part] : eyes) {
     begin_part(list, part, unit_px);
