@@ -48,7 +48,7 @@ fs::path new_name(const char* ending) {
 /// the ellipsoid, which a flight has not.
 std::vector<FlightPath> flight_through(std::vector<Camera> views, const Ellipsoid& body) {
   constexpr double kSlower = 4.0, kRest_s = 1.0;
-  constexpr int kSteps = 16;  // of a way that climbs
+  constexpr int kSteps = 16;  // keyframes of a way, which climbs
   std::erase_if(views, [](const Camera& view) { return view.eye.height_m <= 0.0; });
   if (views.size() < 2) return {};
   std::vector<double> times{0.0};
