@@ -169,8 +169,10 @@ struct ScenePicture::Parts {
   std::unique_ptr<MapPainter> map{};
   OpenedScene scene{};
   bool checked_fills = false;
-  bool is_film = false;         ///< begin_frame() was called
-  bool keeps_features = false;  ///< show_features() was called
+  bool is_film = false;               ///< begin_frame() was called
+  double own_alpha = 1.0;             ///< opacity of the surface at the first begin_frame()
+  std::optional<UtcTime> own_time{};  ///< the same, time of the Sun
+  bool keeps_features = false;        ///< show_features() was called
   std::unique_ptr<OffscreenTarget> target{};
   std::optional<std::optional<GeoRect>> part{};  ///< none: not looked up yet
   std::map<LayerId, PointClusters> clusters{};
@@ -346,16 +348,21 @@ void ScenePicture::Parts::check_fills() {
 
 Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun) {
   SceneOptions& said = parts_->command.scene;
-  parts_->is_film = true;
+  if (!std::exchange(parts_->is_film, true)) {
+    parts_->own_alpha = said.surface.alpha;
+    parts_->own_time = said.time;
+  }
+  const double alpha = surface_alpha.value_or(parts_->own_alpha);
+  const std::optional<UtcTime> time = sun ? sun : parts_->own_time;
   Experiments::forget_imagery(globe());
   if (parts_->map) parts_->map->forget_shown();
-  if (surface_alpha && *surface_alpha != said.surface.alpha) {
-    said.surface.alpha = *surface_alpha;
+  if (alpha != said.surface.alpha) {
+    said.surface.alpha = alpha;
     globe().set_surface(said.surface);
   }
-  if (sun && sun != said.time) {
-    if (Status set = globe().set_time(sun); !set) return set;
-    said.time = sun;
+  if (time != said.time) {
+    if (Status set = globe().set_time(time); !set) return set;
+    said.time = time;
   }
   if (!parts_->scene.heights || !said.elevation_shown) return Done{};
   return globe().set_elevation(parts_->scene.heights);

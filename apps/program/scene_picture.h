@@ -71,8 +71,9 @@ class ScenePicture {
   [[nodiscard]] Status set_shown(LayerId layer, std::vector<ShownWhen> features);
   [[nodiscard]] Camera first_camera() const;   ///< --camera, or default_camera()
   [[nodiscard]] bool has_all_objects() const;  ///< false if the file of --objects has faults
-  /// Begins a frame of a film, with its own opacity of the surface and time of the Sun; none: as before. Forgets the
-  /// tiles that earlier frames loaded, so that draw() gives the same pixels whatever they were (globe/experiments.h).
+  /// Begins a frame of a film, with its own opacity of the surface and time of the Sun; none: those of the scene.
+  /// Forgets tiles that earlier frames loaded, so that draw() gives the same pixels whatever they were
+  /// (globe/experiments.h).
   [[nodiscard]] Status begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun);
   /// Shows the features and clusters of a view, and keeps them in all later pictures until the next call: those of one
   /// instant for all moments of a blurred frame.

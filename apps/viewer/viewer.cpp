@@ -59,7 +59,10 @@ Viewer::Viewer(Window& window, Globe& globe, const ViewerOptions& options)
 }
 
 std::optional<NextScene> Viewer::run() {
-  for (SourceOptions& file : std::exchange(options_.open, {})) layers_.open(std::move(file));
+  for (SourceOptions& file : std::exchange(options_.open, {})) {
+    flights_.look_into(file.address.with_secrets(), true);
+    layers_.open(std::move(file));
+  }
   while (!is_closed()) {
     wait_for_work();
     handle_events();

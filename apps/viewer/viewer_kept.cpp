@@ -41,6 +41,7 @@ SceneOptions Viewer::scene() const {
   now.objects.clear();
   layers_.describe(now);
   now.drawings.clear();
+  flights_.put_back(now);
   return now;
 }
 

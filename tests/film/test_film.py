@@ -72,6 +72,20 @@ class Film(ProgramTest):
         self.write("places.kml", kml.replace("gx:Tour>", "Folder>").encode())
         self.assert_fails(FAILED, "render", "--flight", "places.kml", "-o", "no/%d.png", says=("places.kml", "gx:Tour"))
 
+    def test_a_flight_has_no_look_of_the_one_before(self):
+        """Each frame is the same in a film of all flights, of some, and in shards."""
+        def flight(lon, **properties):
+            return {"type": "Feature", "properties": {"duration_s": 0.5, **properties},
+                    "geometry": {"type": "LineString", "coordinates": [[lon, 47, 900000], [lon + 2, 47, 900000]]}}
+        looks = {"opacities": [0.9, 0.3], "times": ["2026-06-21T18:00Z", "2026-06-21T20:00Z"]}
+        both = {"type": "FeatureCollection", "features": [flight(5, **looks), flight(20)]}
+        self.write("f.geojson", json.dumps(both).encode())
+        self.film("--time", "2026-06-21T12:00Z")
+        self.write("f.geojson", json.dumps(flight(20)).encode())
+        self.film("--time", "2026-06-21T12:00Z", output="alone/%03d.png")
+        whole, alone = self.frames("frames"), self.frames("alone")
+        self.assertEqual([whole[f"{k + 4:03}.png"] for k in range(4)], [alone[f"{k:03}.png"] for k in range(4)])
+
     def test_whole_killed_and_in_shards(self):
         self.write("hills.png", hills(512, 256))
         self.assert_done("cut", "hills.png", "--elevation", "--offset", "-32768", "-o", "hills.gpkg", "--tile-size", "64")

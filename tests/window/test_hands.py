@@ -18,7 +18,8 @@ class Hands(WindowTest):
 
     def menu_item(self, viewer, x, y, index):
         viewer.open_menu(x, y)
-        viewer.click(x + 50, y + MENU_FIRST + MENU_STEP * index)
+        left, top, *_ = viewer.panel("Menu")
+        viewer.click(left + 50, top + MENU_FIRST + MENU_STEP * index)
         time.sleep(0.3)
 
     def copied(self, viewer, before="nothing"):
@@ -118,27 +119,28 @@ class Hands(WindowTest):
             return json.loads(file.read_text()) if file.exists() else {}
 
         viewer.key("k")
-        time.sleep(0.4)
+        viewer.settled()
         self.screenshot(viewer, "empty")
         viewer.click(80, 94)  # Save this view
         viewer.click(80, 94)
         wait_until("two bookmarks", lambda: set(kept().get("bookmarks", {})) == {"1", "2"})
+        viewer.settled()
         viewer.click(298, 115)  # Edit of the first
-        time.sleep(0.4)
+        viewer.settled()
         viewer.xdotool("type", "--delay", "30", "Home")
         viewer.key("Return")
         wait_until("the name", lambda: kept()["names"] == {"1": "Home"})
         self.screenshot(viewer, "named")
         viewer.click(298, 115)
-        time.sleep(0.4)
+        viewer.settled()
         self.screenshot(viewer, "edited")
         viewer.click(80, 161)  # Down
         wait_until("the order", lambda: kept()["names"] == {"2": "Home"})
-        time.sleep(0.4)
+        viewer.settled()
         self.screenshot(viewer, "moved")
         viewer.click(140, 181)  # Delete, in the second row now
         wait_until("one bookmark", lambda: set(kept()["bookmarks"]) == {"1"})
-        time.sleep(0.4)
+        viewer.settled()
         self.screenshot(viewer, "deleted")
         viewer.click(168, 94)  # Restore
         wait_until("the restored one", lambda: kept()["names"] == {"2": "Home"})
@@ -147,7 +149,7 @@ class Hands(WindowTest):
         viewer = self.start("--camera", "46,7,3000000")
         viewer.key("Home")
         globe = viewer.next_camera()
-        time.sleep(0.4)
+        viewer.settled()
         for _ in range(2):
             viewer.xdotool("click", "8")
             self.assertAlmostEqual(viewer.next_camera().height_m, 3e6, delta=1.0)

@@ -19,6 +19,7 @@
 
 #include "apps/process/exit_code.h"
 #include "apps/process/write_file.h"
+#include "streaming/other_formats.h"
 
 namespace terrella {
 namespace {
@@ -42,7 +43,9 @@ std::optional<int> percent_in(const std::string& line) {
 Result<std::unique_ptr<FilmJob>> FilmJob::start(const fs::path& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"terrella", "render"});
   const std::string log = (folder / kLog).string();
-  const std::string command = fmt::format("{}\n", fmt::join(arguments, " "));
+  std::string command;
+  for (const std::string& argument : arguments) command += (command.empty() ? "" : " ") + shell_word(argument);
+  command += "\n";
   if (Status written = write_file(log, std::as_bytes(std::span(command))); !written) return written.error();
   std::vector<char*> words;
   words.reserve(arguments.size() + 1);
@@ -67,9 +70,9 @@ FilmJob::~FilmJob() {
   static_cast<void>(wait());
 }
 
+// A second signal would end the process in the middle of a frame.
 void FilmJob::stop() {
-  stopped_ = true;
-  kill(pid_, SIGTERM);
+  if (!std::exchange(stopped_, true)) kill(pid_, SIGTERM);
 }
 
 int FilmJob::wait() {
@@ -103,10 +106,10 @@ bool FilmJob::has_ended() const {
 Result<std::string> FilmJob::end() {
   const int state = wait();
   const std::string name = folder_.filename().string();
-  if (stopped_) return fmt::format("Film cancelled; {}/{} has the command that goes on", name, kLog);
   if (WIFEXITED(state) && WEXITSTATUS(state) == kDone) return "The film is in " + name;
+  if (stopped_) return fmt::format("Film cancelled; {}/{} has its command", name, kLog);
   if (WIFEXITED(state) && WEXITSTATUS(state) == kDoneInPart)
-    return fmt::format("The film is in {}, but lacks something; {}/{} says what", name, name, kLog);
+    return fmt::format("The film is in {}, but something is missing; {}/{} says what", name, name, kLog);
   std::vector<std::string> said = messages();
   std::erase_if(said, [](const std::string& line) { return line.empty() || percent_in(line); });
   return Error{fmt::format("No film is in {}: {}", name, said.size() < 2 ? "it ended without a message" : said.back())};

@@ -33,7 +33,7 @@ constexpr std::array kFilmRates = {24, 25, 30, 60};
 constexpr std::array kFilmRateNames = {"24 frames a second", "25 frames a second", "30 frames a second",
                                        "60 frames a second"};
 constexpr std::array kFilmKinds = {"PNG frames", "MP4, by ffmpeg"};
-constexpr double kLongestStep_s = 0.25;  // a slow frame does not leave out more of the way
+constexpr double kLongestFlightStep_s = 0.25;  // a slow frame does not leave out more of the way
 
 Status write_text(const fs::path& file, const std::string& text) {
   return write_file(file, std::as_bytes(std::span(text)));
@@ -81,7 +81,7 @@ int Flights::add(const fs::path& file, FlightFile read) {
   for (const std::string& complaint : read.complaints) context_.messages.report(complaint);
   const auto same = std::ranges::find(flights_, file, &Flight::file);
   const int index = static_cast<int>(same - flights_.begin());
-  if (index == chosen_) play(false);
+  if (index == chosen_) take(index);
   if (same == flights_.end()) {
     flights_.push_back({file, std::move(read.paths)});
   } else {
@@ -92,6 +92,7 @@ int Flights::add(const fs::path& file, FlightFile read) {
 
 void Flights::take(int flight) {
   play(false);
+  restore_scene();
   chosen_ = flight;
   time_s_ = 0.0;
 }
@@ -120,12 +121,15 @@ void Flights::take_tours() {
 }
 
 void Flights::take_film() {
-  if (!film_) return;
-  film_text_ = film_->is_stopped() ? "The film ends" : fmt::format("Film: {} %", film_->percent());
-  if (!film_->has_ended()) return;
+  shown_job_ = job();
+  if (!film_ || !film_->has_ended()) return;
   const Result<std::string> ended = std::exchange(film_, nullptr)->end();
-  film_text_.clear();
   ended ? say(*ended) : context_.messages.report(ended.error().message);
+}
+
+std::string Flights::job() const {
+  if (!film_) return {};
+  return film_->is_stopped() ? "The film ends" : fmt::format("Film: {} %", film_->percent());
 }
 
 bool Flights::may_quit() {
@@ -147,13 +151,38 @@ void Flights::toggled() {
   if (chosen().paths.empty()) take(static_cast<int>(flights_.size()) - 1);
 }
 
-void Flights::restore_scene() {
-  if (!before_) return;
-  SurfaceLook surface = context_.globe.options().surface;
-  surface.alpha = before_->surface_alpha;
-  context_.globe.set_surface(surface);
-  if (const Status set = context_.globe.set_time(before_->time); !set) say(set.error());
-  before_.reset();
+// A setting that the user has changed since is the user's.
+void Flights::forget_users_settings() {
+  const GlobeOptions& globe = context_.globe.options();
+  if (alpha_ && alpha_->by != globe.surface.alpha) alpha_.reset();
+  if (time_ && time_->by != globe.time) time_.reset();
+}
+
+void Flights::put_back(SceneOptions& scene) const {
+  if (alpha_ && alpha_->by == scene.surface.alpha) scene.surface.alpha = alpha_->before;
+  if (time_ && time_->by == scene.time) scene.time = time_->before;
+}
+
+void Flights::restore_scene() { show_look({}, {}); }
+
+// Without an opacity or time of the moment the scene has its own.
+void Flights::show_look(std::optional<double> alpha, std::optional<UtcTime> sun) {
+  forget_users_settings();
+  const GlobeOptions& globe = context_.globe.options();
+  if (alpha || alpha_) {
+    const double before = alpha_ ? alpha_->before : globe.surface.alpha;
+    SurfaceLook surface = globe.surface;
+    surface.alpha = alpha.value_or(before);
+    if (surface.alpha != globe.surface.alpha) context_.globe.set_surface(surface);
+    alpha_ = alpha ? std::optional<Replaced<double>>({before, *alpha}) : std::nullopt;
+  }
+  if (!sun && !time_) return;
+  const std::optional<UtcTime> before = time_ ? time_->before : globe.time, wanted = sun ? sun : before;
+  const Status set = wanted != globe.time ? context_.globe.set_time(wanted) : Status(Done{});
+  time_ = sun && set ? std::optional<Replaced<std::optional<UtcTime>>>({before, sun}) : std::nullopt;
+  if (set) return;
+  play(false);
+  say(set.error());
 }
 
 void Flights::play(bool on) {
@@ -173,18 +202,7 @@ void Flights::go(double time_s) {
   time_s_ = time_s;
   const FlightMoment moment = moment_at(chosen().paths, time_s);
   playing_ ? context_.navigator.lead(moment.camera) : context_.navigator.set_camera(moment.camera);
-  const GlobeOptions& globe = context_.globe.options();
-  if (!before_ && (moment.surface_alpha || moment.sun)) before_ = {globe.surface.alpha, globe.time};
-  if (moment.surface_alpha && *moment.surface_alpha != globe.surface.alpha) {
-    SurfaceLook surface = globe.surface;
-    surface.alpha = *moment.surface_alpha;
-    context_.globe.set_surface(surface);
-  }
-  if (!moment.sun || moment.sun == globe.time) return;
-  if (const Status set = context_.globe.set_time(moment.sun); !set) {
-    play(false);
-    say(set.error());
-  }
+  show_look(moment.surface_alpha, moment.sun);
 }
 
 void Flights::advance(Seconds now) {
@@ -192,7 +210,7 @@ void Flights::advance(Seconds now) {
   take_film();
   if (!playing_) return;
   if (!context_.navigator.is_led()) return play(false);
-  const double step_s = std::min((now - moved_).count(), kLongestStep_s);
+  const double step_s = std::min((now - moved_).count(), kLongestFlightStep_s);
   moved_ = now;
   const double last_s = duration_s(chosen().paths);
   double time_s = time_s_ + step_s * kFlightSpeeds[static_cast<std::size_t>(speed_)];
@@ -202,7 +220,7 @@ void Flights::advance(Seconds now) {
 }
 
 bool Flights::changed() const {
-  if (film_ && film_->has_ended()) return true;
+  if (job() != shown_job_ || (film_ && film_->has_ended())) return true;
   return !calls_.opening() && std::ranges::any_of(looked_, &Looked::has_come);
 }
 
@@ -274,7 +292,7 @@ void Flights::draw_film() {
   ImGui::Combo("Rate", &rate_, kFilmRateNames.data(), static_cast<int>(kFilmRateNames.size()));
   choose("Kind", one_file_, kFilmKinds);
   if (film_) {
-    write_wrapped(film_text_);
+    write_wrapped(job());
     if (ImGui::Button("Cancel film") || entered()) film_->stop();
   } else if (ImGui::Button("Save film") || entered()) {
     save_film();

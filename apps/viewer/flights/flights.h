@@ -39,11 +39,13 @@ class Flights : public Panel {
   void refresh_bookmarks();
   /// False once, with a message, if a film would be cancelled.
   [[nodiscard]] bool may_quit();
+  /// Gives a scene the opacity and time that the globe has without the flight.
+  void put_back(SceneOptions& scene) const;
   /// Moves the globe's camera on, and takes the ends of work beside the window. Call it once per frame.
   void advance(Seconds now);
 
   [[nodiscard]] bool changed() const override;
-  [[nodiscard]] std::string job() const override { return film_text_; }
+  [[nodiscard]] std::string job() const override;
 
  private:
   struct Flight {
@@ -63,15 +65,18 @@ class Flights : public Panel {
   void draw_play();
   void draw_film();
   [[nodiscard]] Flight& chosen() { return flights_[static_cast<std::size_t>(chosen_)]; }
-  struct Scene {
-    double surface_alpha;
-    std::optional<UtcTime> time;
+  /// A setting of the globe that the flight replaced, and the flight's own.
+  template <class Value>
+  struct Replaced {
+    Value before, by;
   };
   int add(const std::filesystem::path& file, FlightFile read);
   void take(int flight);
   void take_tours();
   void take_film();
   void restore_scene();
+  void forget_users_settings();
+  void show_look(std::optional<double> alpha, std::optional<UtcTime> sun);
   void play(bool on);
   void stand();
   void go(double time_s);
@@ -92,9 +97,10 @@ class Flights : public Panel {
   int rate_ = 2;           ///< index of the numbers of frames a second
   bool one_file_ = false;  ///< the film is an MP4
   std::unique_ptr<FilmJob> film_;
-  std::string film_text_;        ///< progress of the film; empty without one
-  bool warned_ = false;          ///< may_quit() has told of the film
-  std::optional<Scene> before_;  ///< the scene before a flight changed it
+  std::string shown_job_;  ///< job() in the last frame
+  bool warned_ = false;    ///< may_quit() has told of the film
+  std::optional<Replaced<double>> alpha_;
+  std::optional<Replaced<std::optional<UtcTime>>> time_;
 };
 
 }  // namespace terrella
