@@ -135,7 +135,7 @@ Status Film::render_frame(std::int64_t frame) {
     const FlightMoment& moment = moments[k];
     if (k == 0 || moment != moments[k - 1]) {
       if (Status begun = picture_->begin_frame(moment.surface_alpha, moment.sun); !begun) return begun;
-      auto rendered = picture_->draw(moment.camera);
+      auto rendered = light ? picture_->draw_scene(moment.camera) : picture_->draw(moment.camera);
       if (!rendered) return rendered.error();
       count(frame, *rendered);
       tiles = std::max<std::int64_t>(tiles, rendered->stats.tiles_missing + rendered->stats.tiles_pending);
@@ -147,7 +147,11 @@ Status Film::render_frame(std::int64_t frame) {
   }
   tally_.tiles_missing += tiles;
   tally_.heights_missing += heights;
-  return write(frame, light ? light->mean() : std::move(image), complete);
+  if (light) {
+    image = light->mean();
+    if (Status drawn = picture_->draw_over(plan_.moment(frame).camera, image); !drawn) return drawn;
+  }
+  return write(frame, image, complete);
 }
 
 void Film::count(std::int64_t frame, const Rendered& rendered) {

@@ -123,6 +123,18 @@ Status check_drawn_side(const RenderCommand& command, int most_px) {
                   command.supersample, drawn.width_px, drawn.height_px, size.width_px, size.height_px, most_px)};
 }
 
+/// The pixels of a picture, each as a square of `by` × `by`.
+std::vector<std::uint8_t> enlarged(const Image& image, int by) {
+  if (by == 1) return image.rgba;
+  const auto width = static_cast<std::size_t>(image.width_px), times = static_cast<std::size_t>(by);
+  std::vector<std::uint8_t> pixels(image.rgba.size() * times * times);
+  for (std::size_t k = 0; k < pixels.size() / 4; ++k) {
+    const std::size_t x = k % (width * times) / times, y = k / (width * times) / times;
+    std::copy_n(&image.rgba[4 * (y * width + x)], 4, &pixels[4 * k]);
+  }
+  return pixels;
+}
+
 /// The classes of the objects and the layers of numbers, the highest first.
 std::vector<LegendItem> legend_of(const OpenedScene& scene) {
   std::vector<LegendItem> items;
@@ -186,6 +198,14 @@ struct ScenePicture::Parts {
   Status add_drawings();
   /// The part of the planet with data, which takes a look at the tiles: once.
   const std::optional<GeoRect>& with_data();
+  /// Renders a view without what is drawn over it.
+  Result<FrameStats> render(const Camera& camera);
+  [[nodiscard]] std::vector<std::string> attributions() const;
+  [[nodiscard]] PictureOverlay overlay() const;
+  Status draw_over(const PictureOverlay& overlay);
+  /// The picture as it is drawn now, and what it was drawn from.
+  Rendered read(const FrameStats& stats);
+  [[nodiscard]] std::string where() const { return command.output.empty() ? "" : command.output + ": "; }
 };
 
 Result<GlobeOptions> ScenePicture::Parts::prepare(const Body& body) {
@@ -374,46 +394,79 @@ Status ScenePicture::show_features(const Camera& camera) {
   return parts_->follow_view();
 }
 
-Result<Rendered> ScenePicture::draw(const Camera& camera) {
-  Parts& own = *parts_;
-  const Viewport size = drawn_size(own.command);
-  const unsigned framebuffer = own.target->framebuffer();
-  Globe& globe = *own.scene.globe;
+Result<FrameStats> ScenePicture::Parts::render(const Camera& camera) {
+  const Viewport size = drawn_size(command);
+  const unsigned framebuffer = target->framebuffer();
+  Globe& globe = *scene.globe;
   globe.set_camera(camera);
-  if (!own.keeps_features) {
-    if (const Status followed = own.follow_view(); !followed) return followed.error();
+  if (!keeps_features) {
+    if (const Status followed = follow_view(); !followed) return followed.error();
   }
-  render_all(globe, own.command, camera, framebuffer, own.is_film);
-  const std::string where = own.command.output.empty() ? "" : own.command.output + ": ";
-  if (StopSignals::came()) return Error{where + "stopped; no picture was written"};
+  render_all(globe, command, camera, framebuffer, is_film);
+  if (StopSignals::came()) return Error{where() + "stopped; no picture was written"};
   if (globe.needs_frame(framebuffer, size)) globe.render(framebuffer, size);
-  const FrameStats stats = globe.last_frame();
+  FrameStats stats = globe.last_frame();
   if (const Status& drawn = globe.status(); !drawn) return drawn.error();
-  own.check_fills();
-  const auto& missing = globe.missing_tiles();
+  check_fills();
   if (!stats.imagery_shown) {
-    if (const Status some = check_some_came(stats, missing, own.with_data()); !some) return some.error();
+    if (const Status some = check_some_came(stats, globe.missing_tiles(), with_data()); !some) return some.error();
   }
-  std::vector<std::string> thanks = globe.attributions();
-  if (own.map) thanks.insert(thanks.end(), own.map->attributions().begin(), own.map->attributions().end());
-  PictureOverlay overlay{.graticule = own.command.scene.graticule.value_or(false), .map = own.map.get()};
-  if (own.command.legend) overlay.legend = legend_of(own.scene);
-  if (own.command.credits) overlay.credits = thanks;
-  if (own.command.scale_bar) overlay.scale_units = own.command.units;
-  if (const Status drawn =
-          draw_over_picture(globe, framebuffer, own.command.scene.size, overlay, own.command.supersample);
-      !drawn) {
-    return Error{where + drawn.error().message};
-  }
-  const auto& heights = globe.missing_heights();
-  Image image{size.width_px, size.height_px, own.target->read()};
-  if (own.command.supersample > 1) {
-    LightSum light(own.command.scene.size, own.command.supersample);
+  return stats;
+}
+
+std::vector<std::string> ScenePicture::Parts::attributions() const {
+  std::vector<std::string> thanks = scene.globe->attributions();
+  if (map) thanks.insert(thanks.end(), map->attributions().begin(), map->attributions().end());
+  return thanks;
+}
+
+PictureOverlay ScenePicture::Parts::overlay() const {
+  PictureOverlay overlay{.graticule = command.scene.graticule.value_or(false), .map = map.get()};
+  if (command.legend) overlay.legend = legend_of(scene);
+  if (command.credits) overlay.credits = attributions();
+  if (command.scale_bar) overlay.scale_units = command.units;
+  return overlay;
+}
+
+Status ScenePicture::Parts::draw_over(const PictureOverlay& overlay) {
+  const Status drawn =
+      draw_over_picture(*scene.globe, target->framebuffer(), command.scene.size, overlay, command.supersample);
+  return drawn ? Status(Done{}) : Error{where() + drawn.error().message};
+}
+
+Rendered ScenePicture::Parts::read(const FrameStats& stats) {
+  const Viewport size = drawn_size(command);
+  Image image{size.width_px, size.height_px, target->read()};
+  if (command.supersample > 1) {
+    LightSum light(command.scene.size, command.supersample);
     light.add(image);
     image = light.mean();
   }
-  return Rendered{
-      std::move(image), stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, std::move(thanks)};
+  const auto &missing = scene.globe->missing_tiles(), &heights = scene.globe->missing_heights();
+  return {std::move(image), stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, attributions()};
+}
+
+Result<Rendered> ScenePicture::draw(const Camera& camera) {
+  const auto stats = parts_->render(camera);
+  if (!stats) return stats.error();
+  if (const Status drawn = parts_->draw_over(parts_->overlay()); !drawn) return drawn.error();
+  return parts_->read(*stats);
+}
+
+Result<Rendered> ScenePicture::draw_scene(const Camera& camera) {
+  const auto stats = parts_->render(camera);
+  if (!stats) return stats.error();
+  return parts_->read(*stats);
+}
+
+Status ScenePicture::draw_over(const Camera& camera, Image& image) {
+  const PictureOverlay overlay = parts_->overlay();
+  if (overlay.empty()) return Done{};
+  globe().set_camera(camera);
+  parts_->target->write(enlarged(image, parts_->command.supersample));
+  if (Status drawn = parts_->draw_over(overlay); !drawn) return drawn;
+  image = parts_->read({}).image;
+  return Done{};
 }
 
 }  // namespace terrella

@@ -81,6 +81,10 @@ class ScenePicture {
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).
   [[nodiscard]] Result<Rendered> draw(const Camera& camera);
+  /// The same without map, graticule, legend, credits and scale bar.
+  [[nodiscard]] Result<Rendered> draw_scene(const Camera& camera);
+  /// Draws these over a picture of that view, for example over the mean of several.
+  [[nodiscard]] Status draw_over(const Camera& camera, Image& image);
 
  private:
   struct Parts;

@@ -133,6 +133,20 @@ class MotionBlur(Averages):
             self.assertNotEqual(moments[0], moments[3])
             self.assert_near(self.rows(f"blurred{len(options)}/1.png"), mean_of(moments))
 
+    def test_what_is_drawn_over_the_globe_stays_sharp(self):
+        """The graticule's own light in a blurred frame is that of the frame's own view, not of many views."""
+        def lines(*blur):
+            pictures = []
+            for options in (), ("--graticule",):
+                self.film("over", "--force", *blur, *options)
+                pictures.append(self.rows("over/1.png"))
+            return [[a != b for a, b in zip(*rows)] for rows in zip(*pictures)]
+        sharp, blurred = lines(), lines("--motion-blur", "1", "--blur-moments", "4")
+        differ = sum(a != b for rows in zip(sharp, blurred) for a, b in zip(*rows))
+        self.assertGreater(sum(map(sum, sharp)), 200)
+        # A faint pixel of a line may have the level of the ground under it.
+        self.assertLess(differ, 0.1 * sum(map(sum, sharp)))
+
     def test_runs_and_shards_are_the_same_and_go_on(self):
         blur = "--motion-blur", "0.5", "--blur-moments", "3"
         whole = self.film("whole", *blur)

@@ -42,6 +42,16 @@ void close_display(EGLDisplay display) {
   if (--g_contexts == 0) eglTerminate(display);
 }
 
+/// RGBA8 with its rows in the reverse order.
+std::vector<std::uint8_t> upside_down(std::span<const std::uint8_t> rows, Viewport size) {
+  const auto row = static_cast<std::size_t>(size.width_px) * 4;
+  std::vector<std::uint8_t> turned(rows.size());
+  for (std::size_t from = 0; from < rows.size(); from += row) {
+    std::copy_n(rows.data() + from, row, turned.data() + rows.size() - row - from);
+  }
+  return turned;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create() {
@@ -82,18 +92,20 @@ OffscreenTarget::OffscreenTarget(Viewport size)
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
 }
 
+void OffscreenTarget::write(std::span<const std::uint8_t> picture) {
+  const std::vector<std::uint8_t> bottom_up = upside_down(picture, size_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage2D(color_.name(), 0, 0, 0, size_.width_px, size_.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
+                      bottom_up.data());
+}
+
 std::vector<std::uint8_t> OffscreenTarget::read() const {
-  const auto row = static_cast<std::size_t>(size_.width_px) * 4;
-  std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_.height_px));
+  std::vector<std::uint8_t> bottom_up(std::size_t(4) * static_cast<std::size_t>(size_.width_px) *
+                                      static_cast<std::size_t>(size_.height_px));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureImage(color_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bottom_up.size()),
                     bottom_up.data());
-  std::vector<std::uint8_t> picture(bottom_up.size());
-  for (int y = 0; y < size_.height_px; ++y) {
-    std::copy_n(bottom_up.data() + row * static_cast<std::size_t>(size_.height_px - 1 - y), row,
-                picture.data() + row * static_cast<std::size_t>(y));
-  }
-  return picture;
+  return upside_down(bottom_up, size_);
 }
 
 }  // namespace terrella

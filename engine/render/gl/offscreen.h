@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
@@ -30,6 +31,8 @@ class OffscreenTarget {
  public:
   explicit OffscreenTarget(Viewport size);
   [[nodiscard]] GLuint framebuffer() const { return framebuffer_.name(); }
+  /// Replaces the picture by one of the same size and form as read() returns.
+  void write(std::span<const std::uint8_t> picture);
   /// Returns the picture as RGBA8, rows from the top.
   [[nodiscard]] std::vector<std::uint8_t> read() const;
 
