@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +10,8 @@
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "apps/process/child_process.h"
 
 namespace terrella {
 namespace {
@@ -88,25 +89,12 @@ Result<std::unique_ptr<MoviePipe>> MoviePipe::start(const std::filesystem::path&
 int MoviePipe::spawn(Viewport size, double fps) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return errno;
-  std::vector<std::string> words = arguments_of(part_.string(), size, fps);
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-  posix_spawnattr_t how;
-  posix_spawnattr_init(&how);
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&how, &usual);
-  posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF);
-  const int refused = posix_spawnp(&pid_, "ffmpeg", &files, &how, arguments.data(), environ);
-  posix_spawnattr_destroy(&how);
-  posix_spawn_file_actions_destroy(&files);
+  const int refused = start_child({.program = "ffmpeg",
+                                   .words = arguments_of(part_.string(), size, fps),
+                                   .input = ends[0],
+                                   .output = STDERR_FILENO,
+                                   .errors = STDERR_FILENO},
+                                  pid_);
   close(ends[0]);
   input_ = ends[1];
   if (refused != 0) {
@@ -135,10 +123,7 @@ Status MoviePipe::write(const Image& image) {
 
 std::string MoviePipe::ending() {
   close(std::exchange(input_, -1));
-  int state = 0;
-  while (waitpid(pid_, &state, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = 0;
+  const int state = wait_for_child(std::exchange(pid_, 0));
   if (WIFSIGNALED(state)) return fmt::format("ended by signal {}", WTERMSIG(state));
   return WEXITSTATUS(state) == 0 ? std::string() : fmt::format("ended with code {}", WEXITSTATUS(state));
 }

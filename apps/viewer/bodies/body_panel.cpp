@@ -24,13 +24,8 @@ bool BodyPanel::draw_row(const Body& body, bool first) const {
 }
 
 void BodyPanel::draw_open(float foot) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kBodiesWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
   const bool just_opened = take_just_opened();
-  if (just_opened) ImGui::SetNextWindowFocus();
-  begin_panel(panel());
+  begin_left_panel(panel(), kBodiesWidth, foot, just_opened);
   write_wrapped("Each body keeps its layers and its view.", true);
   const Body* chosen = nullptr;
   for (const Body& body : body_presets()) {

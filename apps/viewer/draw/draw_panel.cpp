@@ -178,12 +178,7 @@ void draw_file(std::string& path, DrawWish& wish) {
 }  // namespace
 
 DrawWish draw_drawing(const char* title, const DrawPanelState& state, std::string& path, float foot, bool just_opened) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kDrawWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (just_opened) ImGui::SetNextWindowFocus();
-  begin_panel(title);
+  begin_left_panel(title, kDrawWidth, foot, just_opened);
   DrawWish wish;
   state.sketch ? draw_sketch(state, wish) : draw_kinds(wish);
   draw_history(state, wish);

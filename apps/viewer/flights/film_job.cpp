@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/process/child_process.h"
 #include "apps/process/exit_code.h"
 #include "apps/process/write_file.h"
 #include "streaming/other_formats.h"
@@ -47,18 +47,13 @@ Result<std::unique_ptr<FilmJob>> FilmJob::start(const fs::path& folder, std::vec
   for (const std::string& argument : arguments) command += (command.empty() ? "" : " ") + shell_word(argument);
   command += "\n";
   if (Status written = write_file(log, std::as_bytes(std::span(command))); !written) return written.error();
-  std::vector<char*> words;
-  words.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log.c_str(), O_WRONLY | O_APPEND, 0);
+  const int errors = ::open(log.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   std::unique_ptr<FilmJob> job(new FilmJob(folder));
-  const int refused = posix_spawn(&job->pid_, "/proc/self/exe", &files, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
+  const int refused =
+      errors < 0
+          ? errno
+          : start_child({.program = "/proc/self/exe", .words = std::move(arguments), .errors = errors}, job->pid_);
+  if (errors >= 0) close(errors);
   if (refused == 0) return job;
   job->pid_ = 0;
   return Error{"No film can be started: " + std::generic_category().message(refused)};
@@ -67,20 +62,12 @@ Result<std::unique_ptr<FilmJob>> FilmJob::start(const fs::path& folder, std::vec
 FilmJob::~FilmJob() {
   if (pid_ == 0) return;
   stop();
-  static_cast<void>(wait());
+  wait_for_child(pid_);
 }
 
 // A second signal would end the process in the middle of a frame.
 void FilmJob::stop() {
   if (!std::exchange(stopped_, true)) kill(pid_, SIGTERM);
-}
-
-int FilmJob::wait() {
-  int state = 0;
-  while (waitpid(pid_, &state, 0) < 0 && errno == EINTR) {
-  }
-  pid_ = 0;
-  return state;
 }
 
 std::vector<std::string> FilmJob::messages() const {
@@ -98,13 +85,10 @@ int FilmJob::percent() {
   return percent_;
 }
 
-bool FilmJob::has_ended() const {
-  siginfo_t ended{};
-  return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid != 0;
-}
+bool FilmJob::has_ended() const { return has_child_ended(pid_); }
 
 Result<std::string> FilmJob::end() {
-  const int state = wait();
+  const int state = wait_for_child(std::exchange(pid_, 0));
   const std::string name = folder_.filename().string();
   if (WIFEXITED(state) && WEXITSTATUS(state) == kDone) return "The film is in " + name;
   if (stopped_) return fmt::format("Film cancelled; {}/{} has its command", name, kLog);

@@ -23,7 +23,6 @@ class FilmJob {
   FilmJob(const FilmJob&) = delete;
   FilmJob& operator=(const FilmJob&) = delete;
 
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] int percent();  ///< part that is done, 0 to 100 in steps of 10
   void stop();                  ///< asks the process to end after its frame
   [[nodiscard]] bool is_stopped() const { return stopped_; }
@@ -34,7 +33,6 @@ class FilmJob {
  private:
   explicit FilmJob(std::filesystem::path folder) : folder_(std::move(folder)) {}
   [[nodiscard]] std::vector<std::string> messages() const;
-  [[nodiscard]] int wait();
 
   std::filesystem::path folder_;
   pid_t pid_ = 0;  ///< 0: has ended

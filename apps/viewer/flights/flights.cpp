@@ -7,15 +7,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <system_error>
 
 #include "apps/flight/flight_text.h"
 #include "apps/open_scene/project/write_project.h"
-#include "apps/process/write_file.h"
 #include "apps/viewer/input.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
+#include "apps/viewer/tools/kept_json.h"
 #include "apps/viewer/tools/screenshot.h"
 #include "geo/body.h"
 #include "streaming/georeference/figure.h"
@@ -34,10 +33,6 @@ constexpr std::array kFilmRateNames = {"24 frames a second", "25 frames a second
                                        "60 frames a second"};
 constexpr std::array kFilmKinds = {"PNG frames", "MP4, by ffmpeg"};
 constexpr double kLongestFlightStep_s = 0.25;  // a slow frame does not leave out more of the way
-
-Status write_text(const fs::path& file, const std::string& text) {
-  return write_file(file, std::as_bytes(std::span(text)));
-}
 
 fs::path new_name(const char* ending) {
   std::error_code unknown;
@@ -225,13 +220,8 @@ bool Flights::changed() const {
 }
 
 void Flights::draw_open(float foot) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kFlightWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (take_just_opened()) ImGui::SetNextWindowFocus();
-  begin_panel(panel());
-  ImGui::PushItemWidth(0.55F * kFlightWidth * unit);
+  begin_left_panel(panel(), kFlightWidth, foot, take_just_opened());
+  ImGui::PushItemWidth(0.55F * kFlightWidth * ImGui::GetFontSize());
   draw_choice();
   if (chosen().paths.empty()) {
     write_wrapped("Save two views as bookmarks with Ctrl + 1 and Ctrl + 2, or open a KML file with a tour.");
@@ -307,7 +297,7 @@ void Flights::draw_film() {
 
 void Flights::save_flight() {
   const fs::path file = new_name(".geojson");
-  const Status saved = write_text(file, flight_text(chosen().paths));
+  const Status saved = write_kept_text(file, flight_text(chosen().paths));
   saved ? say("Saved " + file.filename().string()) : say(saved.error());
 }
 
@@ -321,8 +311,8 @@ void Flights::save_film() {
   const ProjectText project = project_text(scene, whole);
   for (const std::string& left_out : project.left_out) context_.messages.report("Not in the film: " + left_out);
   const fs::path scene_file = folder / "scene.terrella", flight_file = folder / "flight.geojson";
-  Status saved = write_text(scene_file, project.text);
-  if (saved) saved = write_text(flight_file, flight_text(chosen().paths));
+  Status saved = write_kept_text(scene_file, project.text);
+  if (saved) saved = write_kept_text(flight_file, flight_text(chosen().paths));
   auto film = saved ? FilmJob::start(folder, film_arguments(scene, scene_file, flight_file)) : saved.error();
   if (!film) {
     fs::remove_all(folder, failed);

@@ -71,12 +71,7 @@ std::string shown_name(const Bookmark& bookmark, LengthUnits units) {
 
 BookmarkWish draw_bookmarks(const char* title, const Bookmarks& bookmarks, BookmarkEdit& edit, LengthUnits units,
                             bool removed, float foot, bool just_opened) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kBookmarksWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (just_opened) ImGui::SetNextWindowFocus();
-  begin_panel(title);
+  begin_left_panel(title, kBookmarksWidth, foot, just_opened);
   BookmarkWish wish;
   if (ImGui::Button("Save this view")) wish.ask = BookmarkAsk::save;
   tip("Saves the view under the lowest free number. Ctrl + 1 to 9 saves it under that number.");

@@ -45,6 +45,15 @@ void begin_panel(const char* title, ImGuiWindowFlags more) {
   if (!open) cross_clicked = true;
 }
 
+void begin_left_panel(const char* title, float width, float foot, bool just_opened) {
+  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
+  const float right = std::min(left + width * unit, ImGui::GetIO().DisplaySize.x - left);
+  place_panel(Ui::panel_room(left, right, foot));
+  ImGui::SetNextWindowBgAlpha(0.85F);
+  if (just_opened) ImGui::SetNextWindowFocus();
+  begin_panel(title);
+}
+
 bool take_panel_closed() { return std::exchange(cross_clicked, false); }
 
 float line_width(float width_px) { return width_px * ImGui::GetFontSize() / kPlainText_px; }

@@ -22,6 +22,8 @@ inline constexpr ImGuiWindowFlags kFloatingWindow =
 
 /// Begins a panel with a title and a cross that closes it. End it with ImGui::End(). `more`: further flags.
 void begin_panel(const char* title, ImGuiWindowFlags more = 0);
+/// Begins a panel at the window's left edge, some text heights wide and as high as its contents, above `foot` units.
+void begin_left_panel(const char* title, float width, float foot, bool just_opened);
 /// True once after the cross of a panel was clicked.
 [[nodiscard]] bool take_panel_closed();
 

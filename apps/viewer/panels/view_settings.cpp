@@ -171,14 +171,8 @@ std::string time_field(std::optional<UtcTime> time) {
 
 const Action* draw_view_settings(const char* title, ViewSettings& settings, std::span<const Action> actions, float foot,
                                  bool just_opened) {
-  const float unit = ImGui::GetFontSize();
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float left = 0.8F * unit, right = std::min(left + kWidth * unit, size.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (just_opened) ImGui::SetNextWindowFocus();
-  begin_panel(title);
-  ImGui::PushItemWidth(0.5F * kWidth * unit);
+  begin_left_panel(title, kWidth, foot, just_opened);
+  ImGui::PushItemWidth(0.5F * kWidth * ImGui::GetFontSize());
   const Action* clicked = draw_buttons(actions);
   group("Surface");
   draw_surface(settings.surface);

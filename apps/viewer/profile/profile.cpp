@@ -88,12 +88,7 @@ void Profile::draw_open(float foot) {
   for (ProfileSample& sample : samples_) {
     sample.height_m = context_.globe.elevation_m(sample.place.lat, sample.place.lon);
   }
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kProfileWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (take_just_opened()) ImGui::SetNextWindowFocus();
-  begin_panel(panel());
+  begin_left_panel(panel(), kProfileWidth, foot, take_just_opened());
   draw_contents();
   ImGui::End();
 }

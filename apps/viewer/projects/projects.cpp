@@ -53,13 +53,8 @@ void Projects::toggled() {
 }
 
 void Projects::draw_open(float foot) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kProjectWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
   const bool just_opened = take_just_opened();
-  if (just_opened) ImGui::SetNextWindowFocus();
-  begin_panel(panel());
+  begin_left_panel(panel(), kProjectWidth, foot, just_opened);
   if (just_opened) ImGui::SetKeyboardFocusHere();
   draw_fields();
   ImGui::End();

@@ -116,12 +116,7 @@ bool Timeline::can_open() {
 }
 
 void Timeline::draw_open(float foot) {
-  const float unit = ImGui::GetFontSize(), left = 0.8F * unit;
-  const float right = std::min(left + kTimelineWidth * unit, ImGui::GetIO().DisplaySize.x - left);
-  place_panel(Ui::panel_room(left, right, foot));
-  ImGui::SetNextWindowBgAlpha(0.85F);
-  if (take_just_opened()) ImGui::SetNextWindowFocus();
-  begin_panel(panel());
+  begin_left_panel(panel(), kTimelineWidth, foot, take_just_opened());
   const std::vector<TimedLayer> layers = layers_();
   layers.empty() ? write_wrapped("No layer shown has dates.") : draw_contents(layers);
   ImGui::End();

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace terrella {
+
+/// A program to start beside this one, with its standard files. Numbers below 0 stand for /dev/null.
+struct ChildProgram {
+  std::string program;             ///< a path, or a name on PATH
+  std::vector<std::string> words;  ///< its own name, then its arguments
+  int input = -1, output = -1, errors = -1;
+  bool own_session = false;  ///< a signal from the terminal does not reach it
+};
+
+// thread: any, for all of these functions
+/// Starts a program, which takes SIGPIPE as usual. Returns the number of the system's error, 0 for none.
+[[nodiscard]] int start_child(const ChildProgram& child, pid_t& pid);
+/// True if a child has ended; its state stays for wait_for_child().
+[[nodiscard]] bool has_child_ended(pid_t pid);
+/// Waits for the end of a child. Returns its state, as waitpid() has it.
+int wait_for_child(pid_t pid);
+
+}  // namespace terrella
