@@ -62,6 +62,7 @@ Result<Rendered> render_picture(const RenderCommand& command, bool& all_objects)
   const std::vector<std::string> inputs = inputs_of(command.scene);
   const bool writes = !command.output.empty();
   if (const Status may = writes ? may_write_picture(command.output, inputs) : Done{}; !may) return may.error();
+  if (const Status clock = check_clock(command.scene); !clock) return clock.error();
   const auto picture = ScenePicture::open(command);
   if (!picture) return picture.error();
   Result<Rendered> rendered = (*picture)->draw((*picture)->first_camera());
@@ -78,7 +79,8 @@ int tell_of_missing(const RenderCommand& command, const Rendered& rendered, bool
   for (const std::string& note : {memory_note(command.scene.memory_mb, stats), font_note(stats)}) {
     if (!note.empty()) print_message("terrella render: {}\n", note);
   }
-  if (is_complete(stats)) {
+  for (const std::string& date : rendered.missing_dates) print_message("terrella render: {}\n", date);
+  if (is_complete(stats) && rendered.missing_dates.empty()) {
     return all_objects && rasters_left_out() == 0 && stats.ground_left_out == 0 ? kDone : kDoneInPart;
   }
   for (std::size_t k = 0; k < std::min(rendered.missing.size(), kMostNamed); ++k) {

@@ -48,6 +48,7 @@ class SceneOpener {
   Status add_image(const SourceOptions& source, const ImageLook& look);
   Status add_pictures(const Url& address, const ImageLook& look);
   Status add_images();
+  Status set_clocks();
   Status choose_sides();
   Status add_object_layers();
   void add_pictures_of_objects();
@@ -146,6 +147,18 @@ Status SceneOpener::add_images() {
   return Done{};
 }
 
+/// Gives all image layers the clock of --layer-clock.
+Status SceneOpener::set_clocks() {
+  if (!options_.layer_clock) return Done{};
+  for (const SceneLayer& image : scene_.images) {
+    Result<ImageLook> look = scene_.globe->look(image.id);
+    if (!look) return look.error();
+    look->clock = *options_.layer_clock;
+    if (Status set = scene_.globe->set_look(image.id, *look); !set) return set;
+  }
+  return Done{};
+}
+
 /// Chooses the sides of --swipe.
 Status SceneOpener::choose_sides() {
   if (!options_.surface.swipe) return Done{};
@@ -208,6 +221,7 @@ Result<OpenedScene> SceneOpener::open(const PrepareGlobe& prepare) {
   if (Status made = make_globe(*prepared, *std::move(base)); !made) return made.error();
   set_paper_texturing(*scene_.globe, options_);
   if (Status added = add_images(); !added) return added.error();
+  if (Status set = set_clocks(); !set) return set.error();
   if (Status chosen = choose_sides(); !chosen) return chosen.error();
   if (Status added = add_object_layers(); !added) return added.error();
   scene_.all_objects = scene_.all_objects && scene_.left_out.empty();

@@ -99,6 +99,7 @@ Status Film::render() {
   if (wanted_.empty()) return Done{};
   RenderCommand scene = command_.render;
   if (!scene.scene.time) scene.scene.time = plan_.first_sun();
+  if (const Status clock = check_clock(scene.scene); !clock) return clock;
   auto opened = ScenePicture::open(scene);
   if (!opened) return opened.error();
   picture_ = *std::move(opened);
@@ -160,8 +161,11 @@ void Film::count(std::int64_t frame, const Rendered& rendered) {
   for (std::string note : {memory_note(command_.render.scene.memory_mb, stats), font_note(stats)}) {
     if (!note.empty() && tally_.notes.insert(note).second) print_message("terrella render: {}\n", note);
   }
+  for (const std::string& date : rendered.missing_dates) {
+    if (tally_.notes.insert(date).second) print_message("terrella render: {}\n", date);
+  }
   tally_.whole_scene =
-      tally_.whole_scene && picture_->has_all_objects() && rasters_left_out() == 0 && stats.ground_left_out == 0;
+      tally_.whole_scene && rendered.missing_dates.empty() && picture_->has_all_objects() && rasters_left_out() == 0 && stats.ground_left_out == 0;
   if (is_complete(stats) || tally_.first_incomplete) return;
   tally_.first_incomplete = frame;
   tell_incomplete(frame, rendered);

@@ -201,6 +201,7 @@ struct ScenePicture::Parts {
   /// Renders a view without what is drawn over it.
   Result<FrameStats> render(const Camera& camera);
   [[nodiscard]] std::vector<std::string> attributions() const;
+  [[nodiscard]] std::vector<std::string> missing_dates() const;
   [[nodiscard]] PictureOverlay overlay() const;
   Status draw_over(const PictureOverlay& overlay);
   /// The picture as it is drawn now, and what it was drawn from.
@@ -266,6 +267,12 @@ std::vector<std::string> inputs_of(const SceneOptions& scene) {
 
 std::string name_of(const MissingTile& tile) {
   return fmt::format("{}/{}/{}: {}", tile.id.level, tile.id.x, tile.id.y, one_line(tile.failure.why));
+}
+
+Status check_clock(const SceneOptions& scene) {
+  const LayerClock clock = scene.layer_clock.value_or(LayerClock::own);
+  if (clock == LayerClock::own || scene.time) return Done{};
+  return Error{"--layer-clock: there is no time to follow; give --time, or --flight with times"};
 }
 
 int heights_without(const FrameStats& stats) { return stats.heights_missing + stats.heights_pending; }
@@ -434,6 +441,18 @@ Status ScenePicture::Parts::draw_over(const PictureOverlay& overlay) {
   return drawn ? Status(Done{}) : Error{where() + drawn.error().message};
 }
 
+std::vector<std::string> ScenePicture::Parts::missing_dates() const {
+  std::vector<std::string> sentences;
+  for (const MissingInstant& one : scene.globe->missing_instants()) {
+    const auto source = scene.globe->source(one.layer);
+    const bool is_known = source && (*source)->info().steps;
+    const std::string date = is_known ? (*source)->info().steps->text(one.instant) : std::string("a date");
+    sentences.push_back(fmt::format("{} has no tile in view; an earlier date is shown{}{}", date,
+                                    one.why.empty() ? "" : ": ", one_line(one.why)));
+  }
+  return sentences;
+}
+
 Rendered ScenePicture::Parts::read(const FrameStats& stats) {
   const Viewport size = drawn_size(command);
   Image image{size.width_px, size.height_px, target->read()};
@@ -443,7 +462,12 @@ Rendered ScenePicture::Parts::read(const FrameStats& stats) {
     image = light.mean();
   }
   const auto &missing = scene.globe->missing_tiles(), &heights = scene.globe->missing_heights();
-  return {std::move(image), stats, {missing.begin(), missing.end()}, {heights.begin(), heights.end()}, attributions()};
+  return {.image = std::move(image),
+          .stats = stats,
+          .missing = {missing.begin(), missing.end()},
+          .missing_heights = {heights.begin(), heights.end()},
+          .missing_dates = missing_dates(),
+          .attributions = attributions()};
 }
 
 Result<Rendered> ScenePicture::draw(const Camera& camera) {

@@ -32,6 +32,8 @@ struct RenderCommand {
 
 /// Fails if a picture cannot be drawn as many times larger as the command says. thread: any
 [[nodiscard]] Status check_supersample(const RenderCommand& command);
+/// Fails if layers shall follow a time that the scene does not have. thread: any
+[[nodiscard]] Status check_clock(const SceneOptions& scene);
 /// The files, folders and addresses that a scene is drawn from; some are empty. thread: any
 [[nodiscard]] std::vector<std::string> inputs_of(const SceneOptions& scene);
 
@@ -40,6 +42,7 @@ struct Rendered {
   Image image;
   FrameStats stats;
   std::vector<MissingTile> missing, missing_heights;
+  std::vector<std::string> missing_dates;  ///< sentences: dates of layers that earlier ones stand in for, so far
   std::vector<std::string> attributions;
 };
 

@@ -27,8 +27,8 @@
 #include "apps/python/arguments.h"
 #include "apps/python/bindings.h"
 #include "apps/python/gl_thread.h"
-#include "apps/python/layer_times.h"
 #include "apps/python/long_call.h"
+#include "apps/python/python_globe.h"
 #include "streaming/objects/feature_style.h"
 #include "streaming/objects/geojson_objects.h"
 #include "streaming/objects/vector_objects.h"
@@ -37,8 +37,6 @@
 namespace terrella {
 namespace {
 
-namespace py = pybind11;
-
 using Place = std::tuple<double, double, double>;  // latitude, longitude in degrees, height in metres
 
 Geodetic geodetic(double lat, double lon, double height_m) {
@@ -46,12 +44,6 @@ Geodetic geodetic(double lat, double lon, double height_m) {
 }
 
 Place place_of(const Geodetic& place) { return {place.lat.deg(), place.lon.deg(), place.height_m}; }
-
-template <class T>
-T value_or_raise(Result<T> result) {
-  if (!result) raise_error(result.error().message);
-  return std::move(result).value();
-}
 
 bool is_path(const py::object& value) { return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__"); }
 
@@ -86,13 +78,6 @@ ObjectFile objects_of(const py::object& geojson, const py::object& style) {
   return read;
 }
 
-/// Features of an object layer, for styles.
-struct LayerFeatures {
-  std::vector<FeatureParts> parts = {};
-  std::size_t count = 0;    ///< all features, drawn or not
-  double cluster_px = 0.0;  ///< radius of their clusters; 0: none
-};
-
 LayerFeatures layer_features(const ObjectFile& file, double cluster_px) {
   return {features_of(file.scene), static_cast<std::size_t>(file.next) - 1, cluster_px};
 }
@@ -101,127 +86,6 @@ const char* kind_name(ObjectKind kind) {
   constexpr const char* kNames[] = {"point", "line", "polygon", "mesh", "label"};
   return kNames[static_cast<int>(kind)];
 }
-
-/// The globe of terrella.render() that stays, with the thread of its context.
-class PythonGlobe {
- public:
-  PythonGlobe(const py::args& positional, const py::kwargs& keywords) {
-    CLI::App app("", "terrella");
-    int exit_code = kDone;
-    CLI::App& sub = add_render_options(app, command_);
-    sub.callback([&] { exit_code = open(); });
-    command_.more_objects = true;
-    const Said said = run_long(
-        [&, words = command_arguments(sub, positional, keywords)] { return run_command_line(app, words, exit_code); });
-    try {
-      conclude(said);
-    } catch (...) {
-      close();  // on its thread: no destructor follows
-      throw;
-    }
-  }
-  ~PythonGlobe() { close(); }
-  PythonGlobe(const PythonGlobe&) = delete;
-  PythonGlobe& operator=(const PythonGlobe&) = delete;
-
-  /// The features of object layers, by their numbers.
-  [[nodiscard]] std::map<std::uint64_t, LayerFeatures>& features() { return features_; }
-
-  void close() {
-    const py::gil_scoped_release others_run;
-    thread_.run([this] { picture_.reset(); });
-  }
-
-  py::object render() {
-    std::optional<Result<Rendered>> rendered;
-    const Said said = run_long([&] {
-      const StopSignals signals;
-      thread_.run([&] { rendered = picture_ ? picture_->draw(camera_) : Result<Rendered>(Error{kClosed}); });
-      return kDone;
-    });
-    conclude(said);
-    const Rendered drawn = value_or_raise(*std::move(rendered));
-    const int without = drawn.stats.tiles_missing + drawn.stats.tiles_pending + heights_without(drawn.stats);
-    if (without > 0) {
-      std::vector<std::string> messages = {fmt::format("{} tiles are missing", without)};
-      for (const MissingTile& tile : drawn.missing) messages.push_back("missing: " + name_of(tile));
-      conclude({.exit_code = kDoneInPart, .result = {}, .messages = std::move(messages)});
-    }
-    return to_array(drawn.image);
-  }
-
-  /// Calls a function with the globe on its thread, without Python's lock.
-  template <class Work>
-  auto with_globe(Work work) {
-    return with_picture([&work](ScenePicture& picture) { return work(picture.globe()); });
-  }
-
-  /// The same with the picture.
-  template <class Work>
-  auto with_picture(Work work) {
-    std::optional<decltype(work(std::declval<ScenePicture&>()))> result;
-    {
-      const py::gil_scoped_release others_run;
-      thread_.run([&] {
-        if (picture_) result.emplace(work(*picture_));
-      });
-    }
-    if (!result) raise_error(kClosed);
-    return *std::move(result);
-  }
-
-  [[nodiscard]] py::tuple camera() const {
-    const Camera& c = camera_;
-    return py::make_tuple(c.eye.lat.deg(), c.eye.lon.deg(), c.eye.height_m, c.heading.deg(), c.pitch.deg(),
-                          c.fov_y.deg());
-  }
-  void set_camera(const py::object& value) {
-    std::string text;
-    if (py::isinstance<py::str>(value)) {
-      text = value.cast<std::string>();
-    } else {
-      for (const py::handle part : value) text += (text.empty() ? "" : ",") + std::string(py::str(part));
-    }
-    const Result<Camera> parsed = parse_camera(text);
-    if (!parsed) throw py::value_error(shown_message("camera: " + parsed.error().message));
-    camera_ = *parsed;
-  }
-  [[nodiscard]] Viewport size() const { return command_.scene.size; }
-
-  std::uint64_t add_imagery(const std::filesystem::path& tileset, double opacity) {
-    std::uint64_t added = 0;
-    const Said said = run_long([&] {
-      return thread_.run([&] {
-        if (!picture_) return fail("imagery", kClosed);
-        const auto layer = picture_->add({.tile_set = tileset.string(), .opacity = opacity});
-        if (!layer) return fail("imagery", layer.error().message);
-        added = static_cast<std::uint64_t>(*layer);
-        return static_cast<int>(kDone);
-      });
-    });
-    conclude(said);
-    return added;
-  }
-
- private:
-  static constexpr const char* kClosed = "the globe is closed";
-
-  int open() {
-    return thread_.run([this] {
-      auto opened = ScenePicture::open(command_);
-      if (!opened) return fail("render", opened.error().message);
-      picture_ = *std::move(opened);
-      camera_ = picture_->first_camera();
-      return static_cast<int>(picture_->has_all_objects() ? kDone : kDoneInPart);
-    });
-  }
-
-  RenderCommand command_;
-  Camera camera_;
-  GlThread thread_;
-  std::unique_ptr<ScenePicture> picture_;  // lives on the thread
-  std::map<std::uint64_t, LayerFeatures> features_;
-};
 
 py::dict pick(PythonGlobe& self, double x, double y) {
   const GlobePick found = self.with_globe([&](Globe& globe) { return globe.pick({x, y}, self.size()); });
@@ -371,37 +235,6 @@ std::vector<std::uint64_t> numbers_of(const std::vector<LayerId>& ids) {
   std::vector<std::uint64_t> numbers;
   for (const LayerId id : ids) numbers.push_back(static_cast<std::uint64_t>(id));
   return numbers;
-}
-
-using GlobeClass = py::class_<PythonGlobe>;
-
-void add_time_methods(GlobeClass& globe) {
-  globe
-      .def(
-          "set_layer_time",
-          [](PythonGlobe& self, std::uint64_t layer, const std::string& time) {
-            value_or_raise(self.with_globe([&](Globe& g) { return go_to_time(g, LayerId{layer}, time); }));
-          },
-          py::arg("layer"), py::arg("time"),
-          "set_layer_time(self, layer, time)\n--\n\n"
-          "Show a layer of imagery at a time in UTC, such as '2012-05-09' or '2012-05-09T12:00Z': at its last time at "
-          "or before that. The next view has it.")
-      .def(
-          "layer_time",
-          [](PythonGlobe& self, std::uint64_t layer) {
-            return value_or_raise(self.with_globe([&](Globe& g) { return shown_time(g, LayerId{layer}); }));
-          },
-          py::arg("layer"),
-          "layer_time(self, layer)\n--\n\n"
-          "The time that a layer of imagery shows, as its service writes it; None if it has no time.")
-      .def(
-          "layer_times",
-          [](PythonGlobe& self, std::uint64_t layer) {
-            return value_or_raise(self.with_globe([&](Globe& g) { return listed_times(g, LayerId{layer}); }));
-          },
-          py::arg("layer"),
-          "layer_times(self, layer)\n--\n\n"
-          "All times of a layer of imagery, earliest first; empty if it has none.");
 }
 
 void add_layer_methods(GlobeClass& globe) {

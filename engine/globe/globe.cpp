@@ -201,7 +201,8 @@ Experiments& Experiments::of(Globe& globe) {
 void Experiments::forget_imagery(Globe& globe) {
   Globe::Impl& own = *globe.impl_;
   if (!own.may_call("Experiments::forget_imagery")) return;
-  for (const auto& layer : own.images) layer->forget_tiles();
+  for (ImageLayer* layer : own.all_images()) layer->forget_tiles();
+  for (auto& [id, one] : own.following) one.fades = false;
   own.missing.clear();
   // Made anew from the objects by the next frame.
   for (auto* view : own.views) view->ground = {};

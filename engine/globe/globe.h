@@ -31,7 +31,7 @@ namespace terrella {
 
 /// The instants of an image layer, in UTC. None: its source knows no time (TileSetInfo::instant).
 struct LayerTime {
-  std::optional<UtcTime> shown{};   ///< the tiles on the screen
+  std::optional<UtcTime> shown{};   ///< the tiles on the screen; none too before the first instant (LayerClock)
   std::optional<UtcTime> coming{};  ///< the tiles on their way to replace them; none: there are no such tiles
 };
 

@@ -29,6 +29,7 @@ void GlobeView::Impl::stack_layers() {
   for (const auto& layer : globe->images) {
     if (layer->is_drawn(globe->sides())) {
       stack.push_back(&layer->seen_by(id));
+      if (ImageLayer* next = globe->fade_over(*layer); next != nullptr) stack.push_back(&next->seen_by(id));
     } else {
       layer->stop_asking();
     }
@@ -39,8 +40,10 @@ void GlobeView::Impl::stack_layers() {
   }
   planned = stack;
   for (const auto& layer : globe->coming) {
+    LayerView& seen = layer->seen_by(id);
+    if (std::ranges::find(stack, &seen) != stack.end()) continue;
     if (globe->image(layer->id())->is_drawn(globe->sides())) {
-      planned.push_back(&layer->seen_by(id));
+      planned.push_back(&seen);
     } else {
       layer->stop_asking();
     }
@@ -271,6 +274,7 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   changed = is_behind = false;
   drawn = viewport;
   drawn_into = framebuffer;
+  globe->follow_clock();
   stats.uploaded_bytes = globe->take_finished();
   stats.objects_cut = std::exchange(globe->objects_cut, 0);
   stack_layers();
@@ -290,6 +294,12 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   count();
   if (when != Draw::never || (globe->heights && globe->heights->has_all())) take_heights();
   globe->put_in_place();
+  const bool fades_now = std::ranges::any_of(globe->images, [this](const auto& layer) {
+    ImageLayer* next = globe->fade_over(*layer);
+    return next != nullptr && layer->is_drawn(globe->sides()) &&
+           std::ranges::find(stack, &next->seen_by(id)) == stack.end();
+  });
+  if (fades_now) changed = is_behind = true;
   return stats;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "globe/experiments.h"
@@ -69,9 +70,16 @@ struct Globe::Impl {
   [[nodiscard]] ImageLayer* coming_at(const ImageLayer& shown, UtcTime step) const;
   /// Gives the turn to the layer of a step that is on its way already; else asks for the step.
   [[nodiscard]] Status ask_for_step(const ImageLayer& shown, UtcTime step, const SourceTurn& turn);
+  /// Fails if the layer follows the globe's time.
+  [[nodiscard]] Status has_own_clock(const char* call, const ImageLayer& layer) const;
   void note_missing(const ImageLayer& lacking, UtcTime instant);
   /// Names the instant of a layer without a tile in view, and asks for an earlier one.
   void step_back(const ImageLayer& lacking);
+  // The globe's time as the clock of layers (globe_clock.cpp).
+  void follow_clock();  ///< lets layers whose look says so follow the globe's time. Call it before a frame
+  void follow_clock(LayerId id);
+  /// The coming layer that fades in over this one in the next frame, and both get their shares; null: none.
+  [[nodiscard]] ImageLayer* fade_over(ImageLayer& shown);
   Status show_layers();
   void take_cuts();      ///< takes the objects that workers have cut, and lets objects follow the ground
   void follow_ground();  ///< takes changes of what lies on the ground
@@ -110,6 +118,13 @@ struct Globe::Impl {
   std::deque<MissingTile> missing, missing_heights;
   std::deque<MissingInstant> missing_instants;
   std::uint64_t turns = 0;  ///< sources asked for
+  /// A layer that follows the globe's time.
+  struct Following {
+    std::shared_ptr<const TimeSteps> steps;
+    std::optional<UtcTime> step{}, next{};  ///< asked for; next: to fade in
+    bool fades = false;                     ///< the tiles of next have come
+  };
+  std::unordered_map<LayerId, Following> following;
 };
 
 /// Misuse: an assertion, and an error if assertions are off. thread: any

@@ -103,7 +103,8 @@ void Globe::Impl::drop_coming(LayerId id, Coming which) {
 // A layer that is not drawn needs no tiles to be in place.
 void Globe::Impl::put_in_place() {
   const auto is_due = [this](const auto& layer) {
-    return !layer->turn().is_ahead && (layer->is_ready() || !image(layer->id())->is_drawn(sides()));
+    const ImageLayer& shown = *image(layer->id());
+    return !layer->turn().is_ahead && (layer->is_ready() || shown.views().empty() || !shown.is_drawn(sides()));
   };
   if (std::ranges::none_of(coming, is_due)) return;
   std::vector<std::unique_ptr<ImageLayer>> gone, lacking;
@@ -217,6 +218,7 @@ Status Globe::remove(LayerId layer) {
   if (image == nullptr) return no_layer("Globe::remove", "layer", layer);
   impl_->drop_coming(layer, Impl::Coming::all);
   impl_->forget_views_of(*image);
+  impl_->following.erase(layer);
   std::erase_if(impl_->images, [image](const auto& other) { return other.get() == image; });
   impl_->share_gpu();
   impl_->restore_detail();

@@ -25,6 +25,12 @@ ImageLayer* Globe::Impl::newest_coming(const ImageLayer& shown) const {
   return newest;
 }
 
+Status Globe::Impl::has_own_clock(const char* call, const ImageLayer& layer) const {
+  if (!following.contains(layer.id())) return Done{};
+  return Error{std::string(call) +
+               ": the layer follows the globe's time; call Globe::set_time(), or give ImageLook::clock own"};
+}
+
 bool Globe::Impl::is_late(const ImageLayer& layer) const {
   const ImageLayer* shown = image(layer.id());
   if (shown == nullptr || shown == &layer || layer.turn().is_ahead) return false;
@@ -127,6 +133,7 @@ Status Globe::set_layer_time(LayerId imagery, UtcTime time) {
   if (!call) return call.error();
   ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::set_layer_time", "image layer", imagery);
+  if (Status own = impl_->has_own_clock("Globe::set_layer_time", *shown); !own) return own;
   if (Status gone = impl_->go_to_time(*shown, time); !gone) return gone;
   impl_->put_in_place();
   return Done{};
@@ -137,6 +144,7 @@ Status Globe::load_layer_time(LayerId imagery, std::optional<UtcTime> time) {
   if (!call) return call.error();
   const ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::load_layer_time", "image layer", imagery);
+  if (Status own = impl_->has_own_clock("Globe::load_layer_time", *shown); !own) return own;
   if (time) return impl_->load_ahead(*shown, *time);
   impl_->drop_coming(imagery, Impl::Coming::ahead);
   return Done{};
@@ -147,7 +155,7 @@ Result<LayerTime> Globe::layer_time(LayerId imagery) const {
   const ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::layer_time", "image layer", imagery);
   const ImageLayer* newest = impl_->newest_coming(*shown);
-  return LayerTime{.shown = instant_of(*shown), .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
+  return LayerTime{.shown = shown->is_early() ? std::nullopt : instant_of(*shown), .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
 }
 
 const std::deque<MissingInstant>& Globe::missing_instants() const {

@@ -160,17 +160,17 @@ void ImageLayer::request(const LayerView& asking) {
 }
 
 bool ImageLayer::is_drawn(const PictureSides& sides) const {
-  return look_.shown && look_.opacity > 0.0 && (sides.night || look_.daylight != Daylight::night);
+  return look_.shown && !is_early_ && look_.opacity > 0.0 && (sides.night || look_.daylight != Daylight::night);
 }
 
 bool ImageLayer::is_opaque(const PictureSides& sides) const {
   // A base layer of numbers shows the plain colour where it has none.
   const bool covers = has_numbers() || !has_transparency_;
-  return look_.opacity >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(sides);
+  return opacity() >= 1.0 && look_.min_level <= grid_.min_level && covers && !is_special(sides);
 }
 
 bool ImageLayer::hides(const PictureSides& sides) const {
-  return look_.opacity >= 1.0 && !has_transparency_ && !is_special(sides);
+  return opacity() >= 1.0 && !has_transparency_ && !is_special(sides);
 }
 
 bool ImageLayer::is_special(const PictureSides& sides) const {

@@ -54,6 +54,12 @@ class ImageLayer {
   void set_turn(const SourceTurn& turn) { turn_ = turn; }
   [[nodiscard]] const ImageLook& look() const { return look_; }
   void set_look(const ImageLook& look);
+  /// Part of the look's opacity that the layer is drawn with: less while another instant fades in over it.
+  void set_share(double share) { share_ = share; }
+  [[nodiscard]] double opacity() const { return share_ * look_.opacity; }
+  /// True if the globe's time, which the layer follows, is before its first instant: it is not drawn.
+  [[nodiscard]] bool is_early() const { return is_early_; }
+  void set_early(bool early) { is_early_ = early; }
   /// True if the layer has the tiles that its views want, or will not get them.
   [[nodiscard]] bool is_ready() const;
   /// True if tiles are wanted in view and none of them can be had.
@@ -131,6 +137,8 @@ class ImageLayer {
   TileGrid grid_;
   std::vector<TileId> roots_;
   ImageLook look_;
+  double share_ = 1.0;
+  bool is_early_ = false;
   std::string attribution_;
   TileTextures tiles_;
   std::shared_ptr<TileSource> source_;

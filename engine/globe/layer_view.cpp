@@ -92,7 +92,7 @@ LayerFrame LayerView::frame(bool is_base, const PictureSides& sides) {
           .tiles = &layer_.tiles(),
           .gpu = &gpu_,
           .vertices = &layer_.vertices(),
-          .opacity = is_base ? 1.0 : look.opacity,
+          .opacity = is_base ? 1.0 : layer_.opacity(),
           .daylight = sides.night ? look.daylight : Daylight::both,
           .alpha = look.alpha,
           .swipe = sides.swipe ? look.swipe : SwipeSide::both,

@@ -30,6 +30,7 @@ Status check_look(const ImageLook& look) {
       .known("the daylight", look.daylight, Daylight::night)
       .known("the source of its alpha", look.alpha, AlphaFrom::brightness)
       .known("the side of the swipe", look.swipe, SwipeSide::behind)
+      .known("the clock of the layer", look.clock, LayerClock::globe_fades)
       .in("the height of the layer", look.height_m, 0.0, 1e6, " m")
       .in("the brightness", look.tone.brightness, -1.0, 1.0)
       .in("the contrast", look.tone.contrast, 0.0, 4.0)

@@ -42,6 +42,15 @@ enum class SwipeSide {
   behind   ///< to the right of the line
 };
 
+/// Choice of the instant that an image layer shows, if its source has instants (TileSetInfo::steps).
+enum class LayerClock {
+  own,    ///< that of Globe::set_layer_time()
+  globe,  ///< the last one at or before the globe's time; none before the first, and then the layer does not show
+  /// As globe, and the next instant fades in over the shown one in proportion to the time. An instant whose tiles have
+  /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing.
+  globe_fades
+};
+
 /// Abscissa of the line of SurfaceLook::swipe in a picture, a whole number: it lies between two columns of pixels.
 /// thread: any
 [[nodiscard]] double swipe_px(double line, int width_px);
@@ -61,6 +70,7 @@ struct ImageLook {
   /// ground and throws a shadow on it. An eye below this height sees the layer on the ground, and no shadow.
   double height_m = 0.0;
   SwipeSide swipe = SwipeSide::both;
+  LayerClock clock = LayerClock::own;  ///< without a time of the globe, or without instants, as own
   /// Tone of a layer of pictures. The sea in a lowest layer with one does not mirror the Sun.
   ImageTone tone{};
   /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -226,6 +227,80 @@ TEST_F(LayerTimes, ADateThatIsLoadedAheadAppearsInTheNextFrame) {
   draw_checked();
   EXPECT_EQ(shown(), date(5));
   EXPECT_THAT(globe_->missing_instants(), IsEmpty());
+}
+
+TEST_F(LayerTimes, TheGlobesTimeChoosesTheDate) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  const auto show_at = [&](UtcTime time) {
+    ASSERT_TRUE(globe_->set_time(time));
+    settle(*globe_, kTimes);
+  };
+  ImageLook look;
+  look.clock = LayerClock::globe;
+  ASSERT_TRUE(globe_->set_look(layer_, look));
+  settle(*globe_, kTimes);
+  EXPECT_EQ(shown(), date(0)) << "a globe without a time leads no layer";
+  for (const auto& [hours, day] : {std::pair{125, 5}, {143, 5}, {144, 6}, {47, 1}, {24 * kDates + 99, kDates - 1}}) {
+    show_at(date(0) + std::chrono::hours(hours));
+    draw_checked();
+    EXPECT_EQ(shown(), date(day)) << hours;
+  }
+  EXPECT_THAT(globe_->set_layer_time(layer_, date(1)).error().message, HasSubstr("follows the globe's time"));
+  EXPECT_THAT(globe_->load_layer_time(layer_, date(1)).error().message, HasSubstr("follows the globe's time"));
+  // Before the first date the layer does not show.
+  show_at(date(0) - std::chrono::hours(1));
+  EXPECT_FALSE(shown());
+  EXPECT_NE(picture().rgba[0], 200);
+  show_at(date(2));
+  draw_checked();
+  EXPECT_EQ(shown(), date(2));
+  // A missing date is asked for once, whatever the number of frames.
+  show_at(date(kMissing) + std::chrono::hours(1));
+  for (int k = 0; k < 3; ++k) show_at(date(kMissing) + std::chrono::hours(2 + k));
+  draw_checked();
+  EXPECT_EQ(shown(), date(kMissing - 1));
+  EXPECT_THAT(globe_->missing_instants(), SizeIs(1));
+  look.clock = LayerClock::own;
+  ASSERT_TRUE(globe_->set_look(layer_, look));
+  settle(*globe_, kTimes);
+  EXPECT_TRUE(globe_->set_layer_time(layer_, date(1)));
+  settle(*globe_, kTimes);
+  EXPECT_EQ(shown(), date(1));
+}
+
+// The mean of two dates, weighted by the time, also where the layer is translucent: within a level of the pictures of
+// the two dates alone.
+TEST_F(LayerTimes, ADateFadesInOverTheOneBefore) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  ImageLook look;
+  const auto pixel_at = [&](UtcTime time, LayerClock clock, double opacity) {
+    look.clock = clock;
+    look.opacity = opacity;
+    EXPECT_TRUE(globe_->set_look(layer_, look));
+    EXPECT_TRUE(globe_->set_time(time));
+    settle(*globe_, kTimes);
+    draw(*globe_, kTimes);
+    const std::vector<std::uint8_t> rgba = picture().rgba;
+    for (std::size_t i = 4; i < rgba.size(); ++i) EXPECT_EQ(rgba[i], rgba[i - 4]) << "one colour everywhere";
+    return std::array<double, 3>{double(rgba[0]), double(rgba[1]), double(rgba[2])};
+  };
+  for (const double opacity : {1.0, 0.5}) {
+    const auto before = pixel_at(date(4), LayerClock::globe, opacity), after = pixel_at(date(5), LayerClock::globe, opacity);
+    EXPECT_GE(after[2] - before[2], 3.0);
+    for (const int hours : {0, 3, 6, 12, 18, 21, 23}) {
+      const auto mean = pixel_at(date(4) + std::chrono::hours(hours), LayerClock::globe_fades, opacity);
+      EXPECT_EQ(shown(), date(4));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double share = hours / 24.0;
+        EXPECT_NEAR(mean[k], (1.0 - share) * before[k] + share * after[k], 1.0) << opacity << ' ' << hours << ' ' << k;
+      }
+    }
+  }
+  // A missing date does not fade in: nothing of the plain colour under it shows.
+  EXPECT_EQ(pixel_at(date(kMissing - 1) + std::chrono::hours(20), LayerClock::globe_fades, 1.0),
+            pixel_at(date(kMissing - 1), LayerClock::globe, 1.0));
+  EXPECT_EQ(pixel_at(date(kMissing) + std::chrono::hours(12), LayerClock::globe, 1.0),
+            pixel_at(date(kMissing - 1), LayerClock::globe, 1.0));
 }
 
 TEST_F(LayerTimes, AnswersSayWhatIsWrong) {

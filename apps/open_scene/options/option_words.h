@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/layers.h"
 #include "tiles/tile_grid.h"
 #include "view/render_modes.h"
 
@@ -23,6 +24,9 @@ using OptionWords = std::vector<std::pair<std::string, Value>>;
 }
 [[nodiscard]] inline OptionWords<LatitudeKind> latitude_words() {
   return {{"graphic", LatitudeKind::graphic}, {"centric", LatitudeKind::centric}};
+}
+[[nodiscard]] inline OptionWords<LayerClock> clock_words() {
+  return {{"own", LayerClock::own}, {"globe", LayerClock::globe}, {"globe-fades", LayerClock::globe_fades}};
 }
 [[nodiscard]] inline OptionWords<Texturing> texturing_words() {
   return {{"vertex", Texturing::vertex},

@@ -112,6 +112,10 @@ void add_sky_options(CLI::App& command, SceneOptions& options) {
           "Place Sun, Moon and stars for this time in 1950 to 2050, such as 2026-06-21T12:00Z (default: light over the "
           "viewer's shoulder)")
       ->type_name("UTC");
+  add_choice<LayerClock>(
+      command, "--layer-clock", options.layer_clock, clock_words(),
+      "Choose the dates of layers that have several: their own, the last one at --time, or that one with the next "
+      "date fading in over it. A flight with times and the window's time play them");
   add_choice<bool>(command, "--night-lights", options.night_lights, {{"on", true}, {"off", false}},
                    "Draw the lights of the Earth's cities on the night side at --time")
       ->default_str("on");

@@ -75,6 +75,7 @@ struct SceneOptions {
   std::string places;             ///< GeoJSON file of names, for map and search; empty: the Earth's cities
   bool sky = true;                ///< stars, Sun, Moon and atmosphere
   std::optional<UtcTime> time;    ///< time of the sky
+  std::optional<LayerClock> layer_clock{};  ///< clock of all image layers; absent: that of their looks
   bool night_lights = true;       ///< lights of the Earth's cities on the night side at `time`
   std::size_t memory_mb = 512;    ///< limit for decoded tiles, in 2^20 bytes
 

@@ -124,13 +124,14 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   if (fields.has(kContrast)) image.look.tone.contrast = fields.number(kContrast);
   if (fields.has(kGamma)) image.look.tone.gamma = fields.number(kGamma);
   read_word(fields, kSwipe, swipe_words(), image.look.swipe);
+  read_word(fields, kClock, clock_words(), image.look.clock);
   if (fields.has(kHeight)) image.look.height_m = fields.number(kHeight);
   keep_or_throw(fields);
   if (const Status sane = check_look(image.look); !sane) reader.fail(sane.error().message);
   std::vector<std::string> words;
   for (const auto& [name, value] : layer.items()) {
     constexpr std::array kOwn = {kKind,  kSource,     kShown,    kOpacity, kDaylight,  kAlpha, kHeight,
-                                 kSwipe, kBrightness, kContrast, kGamma,   kOtherBody, kTitle, kAttribution};
+                                 kSwipe, kBrightness, kContrast, kGamma,   kOtherBody, kTitle, kAttribution, kClock};
     if (is_among(kOwn, name)) continue;
     if (!is_among(kSourceNames, name)) throw ProjectFault(fmt::format("{}: there is no field \"{}\"", where, name));
     const bool file = name == "colormap" && value.is_string() && !has_named_map(value.get<std::string>());

@@ -155,6 +155,7 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
   put(json, kContrast, look.tone.contrast, plain.contrast);
   put(json, kGamma, look.tone.gamma, plain.gamma);
   put_word(json, kSwipe, look.swipe, SwipeSide::both, swipe_words());
+  put_word(json, kClock, look.clock, LayerClock::own, clock_words());
   return json;
 }
 

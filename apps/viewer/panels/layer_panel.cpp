@@ -52,6 +52,10 @@ void draw_look(LayerRow& row) {
     tip("For white-on-black pictures of clouds.");
   }
   if (row.finest_level > 0) draw_levels(row);
+  if (!row.tiles || !row.tiles->info().steps) return;
+  choose("Dates", row.look.clock, std::array{"own", "globe's time", "globe's time, fading"});
+  tip("own: A chooses the date. globe's time: the last date at or before the time of Sun and stars, which T plays; "
+      "fading: the next date fades in over it.");
 }
 
 /// Side of a swipe, and tone, which a click opens.

@@ -29,7 +29,8 @@ constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 /// layer that shows the newest date shows a newer one at the next start.
 SourceOptions described(const Globe& globe, const LayerRow& row) {
   SourceOptions source = row.source;
-  const auto time = globe.layer_time(row.id);
+  const bool follows = row.look.clock != LayerClock::own && globe.options().time;
+  const auto time = follows ? Result<LayerTime>(LayerTime{}) : globe.layer_time(row.id);
   const auto instant = time ? (time->coming ? time->coming : time->shown) : std::nullopt;
   if (instant && row.tiles && row.tiles->info().steps && instant != row.tiles->info().instant)
     source.remote.time = row.tiles->info().steps->text(*instant);
@@ -167,7 +168,8 @@ std::vector<TimedLayer> Layers::timed() const {
   std::vector<TimedLayer> layers;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
     if (row->kind != LayerKind::imagery || !row->look.shown || !row->tiles) continue;
-    if (auto steps = row->tiles->info().steps) layers.push_back({row->id, row->name, std::move(steps)});
+    const bool follows = row->look.clock != LayerClock::own && context_.globe.options().time;
+    if (auto steps = row->tiles->info().steps) layers.push_back({row->id, row->name, std::move(steps), follows});
   }
   return layers;
 }

@@ -28,6 +28,12 @@ JoinedSteps joined(const std::vector<TimedLayer>& layers) {
   return JoinedSteps(std::move(steps));
 }
 
+/// The layers whose dates the panel chooses.
+std::vector<TimedLayer> led(std::vector<TimedLayer> layers) {
+  std::erase_if(layers, &TimedLayer::follows);
+  return layers;
+}
+
 std::vector<LayerId> ids_of(const std::vector<TimedLayer>& layers) {
   std::vector<LayerId> ids;
   ids.reserve(layers.size());
@@ -56,14 +62,14 @@ UtcTime Timeline::now(const std::vector<TimedLayer>& layers) const {
 }
 
 bool Timeline::is_coming() const {
-  return std::ranges::any_of(layers_(), [this](const TimedLayer& layer) {
+  return std::ranges::any_of(led(layers_()), [this](const TimedLayer& layer) {
     const auto time = context_.globe.layer_time(layer.id);
     return time && time->coming;
   });
 }
 
 void Timeline::go(UtcTime time) {
-  const std::vector<TimedLayer> layers = layers_();
+  const std::vector<TimedLayer> layers = led(layers_());
   stepped_ = Input::now();
   for (const TimedLayer& layer : layers) {
     if (!layer.steps->at_or_before(time)) continue;  // a layer that begins later stays as it is
@@ -77,7 +83,7 @@ void Timeline::go(UtcTime time) {
 }
 
 void Timeline::step(bool backwards) {
-  const std::vector<TimedLayer> layers = layers_();
+  const std::vector<TimedLayer> layers = led(layers_());
   if (layers.empty()) return;
   play(false);
   if (const auto next = next_step(joined(layers), now(layers), {.backwards = backwards, .loops = play_.loops}))
@@ -88,12 +94,12 @@ void Timeline::play(bool on) {
   playing_ = on;
   stepped_ = Input::now();
   if (on) return;
-  for (const TimedLayer& layer : layers_()) static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
+  for (const TimedLayer& layer : led(layers_())) static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
 }
 
 void Timeline::advance() {
   if (!playing_ || is_coming()) return;
-  const std::vector<TimedLayer> layers = layers_();
+  const std::vector<TimedLayer> layers = led(layers_());
   const auto next = layers.empty() ? std::nullopt : next_step(joined(layers), now(layers), play_);
   if (seconds_left(kLongestStep_s) <= 0.0) return next ? go(*next) : play(false);
   if (!next) return;
@@ -123,8 +129,10 @@ void Timeline::draw_open(float foot) {
 }
 
 void Timeline::draw_contents(const std::vector<TimedLayer>& layers) {
-  const JoinedSteps steps = joined(layers);
   draw_dates(layers);
+  const std::vector<TimedLayer> chosen = led(layers);
+  if (chosen.empty()) return write_wrapped("The dates follow the globe's time. T plays it; L gives a layer its own dates.", true);
+  const JoinedSteps steps = joined(chosen);
   draw_slider(steps);
   draw_buttons(steps);
   draw_choices();
@@ -136,7 +144,7 @@ void Timeline::draw_slider(const JoinedSteps& steps) {
   const auto step_at = [&](double share) {
     return steps.at_or_before(from + std::chrono::duration_cast<UtcTime::duration>((to - from) * share)).value_or(from);
   };
-  const UtcTime at = dragged_ ? step_at(*dragged_) : now(layers_());
+  const UtcTime at = dragged_ ? step_at(*dragged_) : now(led(layers_()));
   double share = from == to ? 1.0 : double((at - from).count()) / double((to - from).count());
   if (dragged_) share = *dragged_;
   constexpr double kStart = 0.0, kEnd = 1.0;
@@ -183,8 +191,13 @@ void Timeline::draw_choices() {
 void Timeline::draw_dates(const std::vector<TimedLayer>& layers) const {
   for (const TimedLayer& layer : layers) {
     const auto time = context_.globe.layer_time(layer.id);
-    if (!time || !time->shown) continue;
-    const auto wanted = layer.steps->at_or_before(now(layers));
+    if (!time) continue;
+    if (!time->shown) {
+      write_wrapped(fmt::format("{}: no date before {}", layer.name, step_text(layer.steps->first(), local_)));
+      continue;
+    }
+    const UtcTime asked = layer.follows ? *context_.globe.options().time : now(led(layers));
+    const auto wanted = layer.steps->at_or_before(asked);
     std::string text = fmt::format("{}: {}", layer.name, step_text(*time->shown, local_));
     if (time->coming) {
       text += fmt::format(", {} is loading", step_text(*time->coming, local_));

@@ -18,6 +18,7 @@ struct TimedLayer {
   LayerId id = LayerId::none;
   std::string name;
   std::shared_ptr<const TimeSteps> steps;
+  bool follows = false;  ///< its date follows the globe's time (LayerClock)
 };
 
 /// Shows layers at the instants that they have, and plays them. Owns the panel. The next instant is asked for once the
