@@ -398,6 +398,7 @@ Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optio
 Status ScenePicture::show_features(const Camera& camera) {
   globe().set_camera(camera);
   parts_->keeps_features = true;
+  Experiments::of(globe()).layer_clock = parts_->command.scene.time;
   return parts_->follow_view();
 }
 

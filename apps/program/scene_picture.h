@@ -78,8 +78,8 @@ class ScenePicture {
   /// Forgets tiles that earlier frames loaded, so that draw() gives the same pixels whatever they were
   /// (globe/experiments.h).
   [[nodiscard]] Status begin_frame(std::optional<double> surface_alpha, std::optional<UtcTime> sun);
-  /// Shows the features and clusters of a view, and keeps them in all later pictures until the next call: those of one
-  /// instant for all moments of a blurred frame.
+  /// Shows the features and clusters of a view and the dates of the present time, and keeps them in all later pictures
+  /// until the next call: those of one instant for all moments of a blurred frame.
   [[nodiscard]] Status show_features(const Camera& camera);
   /// Draws a view until all its tiles have come or the time is up, then map and legend. An eye in the ground rises.
   /// Fails if no tile came, and after a signal (StopSignals).

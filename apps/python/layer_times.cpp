@@ -24,6 +24,9 @@ Status go_to_time(Globe& globe, LayerId layer, const std::string& time) {
 Result<std::optional<std::string>> shown_time(const Globe& globe, LayerId layer) {
   const auto source = globe.source(layer);
   if (!source) return source.error();
+  const auto shown = globe.layer_time(layer);
+  if (!shown) return shown.error();
+  if ((*source)->info().instant && !shown->shown) return std::optional<std::string>();
   const std::string& time = (*source)->info().time;
   return time.empty() ? std::nullopt : std::optional(time);
 }

@@ -30,6 +30,8 @@ struct Experiments {
   /// Pixels of the picture for each pixel of a size, [1, 4]: of stars, markers, lines, texts, and pictures of the
   /// ground. A picture that is drawn larger and then averaged thus has symbols of their usual size.
   double pixel_scale = 1.0;
+  /// Time that layers follow (LayerClock) instead of the globe's: that of a whole frame, while the Sun moves within it.
+  std::optional<UtcTime> layer_clock{};
 
   // For films. A settled picture depends on the tiles of earlier views: heights are taken from the finest loaded tile,
   // and a texture continues in the loaded neighbours of its tile. These two make a picture depend on its view alone.

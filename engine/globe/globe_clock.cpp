@@ -3,6 +3,10 @@
 // Image layers that follow the globe's time (ImageLook::clock).
 namespace terrella {
 
+std::optional<UtcTime> Globe::Impl::layer_clock() const {
+  return experiments.layer_clock ? experiments.layer_clock : options.time;
+}
+
 void Globe::Impl::follow_clock() {
   std::vector<LayerId> ids;  // a layer may take another's place meanwhile
   ids.reserve(images.size());
@@ -15,14 +19,15 @@ void Globe::Impl::follow_clock(LayerId id) {
   ImageLayer& shown = *image(id);
   const LayerClock clock = shown.look().clock;
   const std::shared_ptr<const TimeSteps> steps = shown.source()->info().steps;
-  if (clock == LayerClock::own || !options.time || !steps || steps->empty()) {
+  const std::optional<UtcTime> time = layer_clock();
+  if (clock == LayerClock::own || !time || !steps || steps->empty()) {
     shown.set_early(false);
     if (following.erase(id) > 0) drop_coming(id, Coming::ahead);
     return;
   }
   Following& one = following[id];
   if (one.steps != steps) one = {.steps = steps};
-  const std::optional<UtcTime> step = steps->at_or_before(*options.time);
+  const std::optional<UtcTime> step = steps->at_or_before(*time);
   const auto follow = [&](const Status& followed, UtcTime instant) {
     if (!followed) missing_instants.push_back({id, instant, followed.error().message});
   };
@@ -45,12 +50,13 @@ void Globe::Impl::follow_clock(LayerId id) {
 ImageLayer* Globe::Impl::fade_over(ImageLayer& shown) {
   shown.set_share(1.0);
   const auto found = following.find(shown.id());
-  if (found == following.end() || !found->second.next || !options.time) return nullptr;
+  const std::optional<UtcTime> time = layer_clock();
+  if (found == following.end() || !found->second.next || !time) return nullptr;
   Following& one = found->second;
   ImageLayer* next = coming_at(shown, *one.next);
   if (next == nullptr || !next->turn().is_ahead || newest_coming(shown) != nullptr) return nullptr;
   one.fades = one.fades || (next->is_ready() && !next->is_void());
-  const double share = std::chrono::duration<double>(*options.time - *one.step) / (*one.next - *one.step);
+  const double share = std::chrono::duration<double>(*time - *one.step) / (*one.next - *one.step);
   if (!one.fades || share <= 0.0 || share >= 1.0) return nullptr;
   if (next->look() != shown.look()) next->set_look(shown.look());
   next->set_share(share);

@@ -76,6 +76,7 @@ struct Globe::Impl {
   /// Names the instant of a layer without a tile in view, and asks for an earlier one.
   void step_back(const ImageLayer& lacking);
   // The globe's time as the clock of layers (globe_clock.cpp).
+  [[nodiscard]] std::optional<UtcTime> layer_clock() const;
   void follow_clock();  ///< lets layers whose look says so follow the globe's time. Call it before a frame
   void follow_clock(LayerId id);
   /// The coming layer that fades in over this one in the next frame, and both get their shares; null: none.
