@@ -382,7 +382,6 @@ Status ScenePicture::begin_frame(std::optional<double> surface_alpha, std::optio
   const double alpha = surface_alpha.value_or(parts_->own_alpha);
   const std::optional<UtcTime> time = sun ? sun : parts_->own_time;
   Experiments::forget_imagery(globe());
-  if (parts_->map) parts_->map->forget_shown();
   if (alpha != said.surface.alpha) {
     said.surface.alpha = alpha;
     globe().set_surface(said.surface);

@@ -24,7 +24,7 @@ Body sphere(std::string name, double radius_m) {
 /// 2015 (Archinal et al. 2018, doi:10.1007/s10569-017-9805-5). They were compared with PROJ 9.1 (authority IAU_2015)
 /// for the bodies in its database. A spheroid has its equatorial and polar radius. A triaxial body is a sphere of its
 /// mean radius. Titan has the radius that the report prescribes for maps.
-std::array<Body, 24> make_presets() {
+std::array<Body, 25> make_presets() {
   return {
       // WGS 84: NGA.STND.0036, defining parameters.
       Body{.name = "earth", .ellipsoid = Ellipsoid(6378137.0, 1.0 / 298.257223563)},
@@ -41,6 +41,7 @@ std::array<Body, 24> make_presets() {
       sphere("pluto", 1188300.0),
       sphere("charon", 606000.0),
       from_axes("ceres", 487300.0, 446000.0),
+      sphere("vesta", 255000.0),
       sphere("phobos", 11080.0),
       sphere("deimos", 6200.0),
       sphere("io", 1821490.0),

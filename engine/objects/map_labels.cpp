@@ -78,9 +78,12 @@ std::vector<MapLabels::Side> MapLabels::sides(std::size_t name) const {
   return {Side::right, Side::left};
 }
 
-void MapLabels::forget_shown() {
-  std::ranges::fill(shown_, Side::hidden);
-  std::ranges::fill(wait_, std::uint8_t{0});
+void MapLabels::apart(const std::function<void()>& draw) {
+  const std::vector<Side> shown = std::exchange(shown_, std::vector<Side>(names_.size(), Side::hidden));
+  const std::vector<std::uint8_t> wait = std::exchange(wait_, std::vector<std::uint8_t>(names_.size()));
+  draw();
+  shown_ = shown;
+  wait_ = wait;
 }
 
 void MapLabels::take_back() { std::tie(shown_, wait_) = std::move(before_); }

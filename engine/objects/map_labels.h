@@ -52,8 +52,9 @@ class MapLabels {
   /// Returns the names of a picture, the highest rank first. A name faces the eye, and lies wholly in the picture and
   /// over the planet.
   [[nodiscard]] std::vector<ShownName> place(const View& view, const Ground& ground, const LabelPage& page);
-  /// Forgets the names of the last picture, which keep their places in the next one.
-  void forget_shown();
+  /// Calls place() in `draw` for a picture of its own: names of earlier pictures count no more than others, and the next
+  /// picture after it follows the one before it.
+  void apart(const std::function<void()>& draw);
   /// Forgets the names of the last place(), so that the same picture can be placed again.
   void take_back();
   /// Returns the pixel of a name's place on the ground; nothing if it is behind the eye.

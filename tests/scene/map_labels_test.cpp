@@ -127,6 +127,18 @@ TEST(MapLabels, TheFarSideHasNoNames) {
   EXPECT_EQ(texts(labels, seen_from(0.0, 0.0, 1.0e7)), std::vector<std::string>{"near"});
 }
 
+// A saved picture has the names that its view has in any program, and the window's names do not jump after it.
+TEST(MapLabels, APictureOfItsOwnKnowsNoOther) {
+  MapLabels labels(random_names(1500), earth().ellipsoid), fresh(random_names(1500), earth().ellipsoid);
+  const View before = seen_from(45.0, 0.0, 6.0e5), now = seen_from(45.0, 0.5, 5.0e5);
+  const auto kept = texts(labels, before);
+  std::vector<std::string> apart;
+  labels.apart([&] { apart = texts(labels, now); });
+  EXPECT_EQ(apart, texts(fresh, now));
+  EXPECT_EQ(texts(labels, before), kept);
+  EXPECT_NE(texts(labels, now), apart) << "names that are shown stay";
+}
+
 TEST(MapLabels, ASmallPlaceShowsFromNearby) {
   std::vector<MapName> names{name("village", 0.0, 0.0, 1.0)};
   names.front().widest_m = 100.0;

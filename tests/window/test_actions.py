@@ -162,7 +162,7 @@ class Walk(WindowTest):
 
     def reset(self):
         """The look of the start, over the whole globe in daylight."""
-        self.key("r")
+        self.key("r", "r")  # changed settings ask once
         time.sleep(1.0)
         self.viewer.settled(ROWS)
 

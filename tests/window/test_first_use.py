@@ -146,6 +146,8 @@ class FirstUse(WindowTest):
 
     def reset(self):
         self.viewer.key("r")
+        self.assertTrue(self.viewer.camera_stays(0.5), "R asks before a time is lost")
+        self.viewer.key("r")
         there = self.viewer.next_camera()
         self.assertEqual((there.heading, there.pitch), (0.0, -90.0))
         self.shoot("reset")

@@ -161,10 +161,7 @@ void group(const char* name) {
 }
 
 void slide(const char* name, double& value, double from, double to, const char* format, ImGuiSliderFlags flags) {
-  auto shown = static_cast<float>(value);
-  if (ImGui::SliderFloat(name, &shown, static_cast<float>(from), static_cast<float>(to), format, flags)) {
-    value = static_cast<double>(shown);
-  }
+  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &from, &to, format, flags);
 }
 
 }  // namespace terrella

@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "apps/viewer/input.h"
 
 namespace terrella {
+namespace {
+
+constexpr std::chrono::seconds kResetTime(4);  // for the second reset
+
+}  // namespace
 
 ViewModes::ViewModes(const ViewerContext& context, std::span<const Action> actions,
                      std::function<void(const Action&)> run)
@@ -112,7 +119,20 @@ void ViewModes::toggle_sky() {
   say(sky_ ? "Sky on" : "Sky off");
 }
 
+bool ViewModes::is_as_started() const {
+  const ViewSettings now = modes();
+  const auto values = [](const ViewSettings& s) {
+    return std::tie(s.surface, s.stereo, s.under_ground, s.sky, s.time, s.night_lights, s.playing, s.exaggeration);
+  };
+  return values(now) == values(start_);
+}
+
 void ViewModes::reset() {
+  const bool again = Input::now() < std::exchange(reset_until_, Seconds(-1.0));
+  if (!again && !is_as_started()) {
+    reset_until_ = Input::now() + kResetTime;
+    return context_.messages.say("Reset again (R) to lose the time and all settings of the view", kResetTime);
+  }
   ViewSettings start = start_;
   start.units = context_.ui.units();  // a habit of the user, not a mode
   apply(start);

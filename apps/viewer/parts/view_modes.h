@@ -27,7 +27,8 @@ class ViewModes : public Panel {
   void toggle_play() { play_.play(!play_.is_playing()); }
   [[nodiscard]] TimePlay& play() { return play_; }
   [[nodiscard]] bool changed() const override { return play_.changed(); }
-  /// Returns to the modes of the start, and flies to the whole globe with north up.
+  /// Returns to the modes of the start, and flies to the whole globe with north up. Modes that the user has changed are
+  /// reset by a second call soon after the first, which asks.
   void reset();
 
  private:
@@ -35,6 +36,7 @@ class ViewModes : public Panel {
   void apply(const ViewSettings& settings);
   void set_time(std::optional<UtcTime> time);
   [[nodiscard]] ViewSettings modes() const;
+  [[nodiscard]] bool is_as_started() const;
 
   std::span<const Action> actions_;
   std::function<void(const Action&)> run_;
@@ -42,6 +44,7 @@ class ViewModes : public Panel {
   TimePlay play_;
   bool sky_;
   ViewSettings start_;     ///< modes at the start
+  Seconds reset_until_{-1.0};  ///< a second reset() does not ask until then
   ViewSettings settings_;  ///< settings in the panel, with the text as typed so far
 };
 

@@ -26,8 +26,10 @@ class MapPainter {
   /// Draws the names around the boxes of `taken`, in units of the window, and returns the boxes of the names.
   std::vector<UiBox> draw_names(const Globe& globe, const View& view, double unit_px, MapDetail detail,
                                 const std::vector<UiBox>& taken);
-  /// See MapLabels::forget_shown().
-  void forget_shown() { labels_.forget_shown(); }
+  /// The same in a picture of its own (MapLabels::apart()), in pixels.
+  void draw_names_apart(const Globe& globe, const View& view, const std::vector<UiBox>& taken) {
+    labels_.apart([&] { static_cast<void>(draw_names(globe, view, 1.0, MapDetail::full, taken)); });
+  }
   [[nodiscard]] const std::vector<std::string>& attributions() const { return attributions_; }
 
  private:

@@ -85,7 +85,7 @@ bool draw_overlay(const Globe& globe, Viewport size, const PictureOverlay& overl
     const std::vector<UiBox> labels = draw_graticule(globe, view, 1.0, 0.0, taken);
     taken.insert(taken.end(), labels.begin(), labels.end());
   }
-  if (overlay.map != nullptr) overlay.map->draw_names(globe, view, 1.0, MapDetail::full, taken);
+  if (overlay.map != nullptr) overlay.map->draw_names_apart(globe, view, taken);
   return overlay.credits.empty() || Ui::shown_box(kAttributionBox).has_value();
 }
 
