@@ -164,8 +164,8 @@ void Film::count(std::int64_t frame, const Rendered& rendered) {
   for (const std::string& date : rendered.missing_dates) {
     if (tally_.notes.insert(date).second) print_message("terrella render: {}\n", date);
   }
-  tally_.whole_scene =
-      tally_.whole_scene && rendered.missing_dates.empty() && picture_->has_all_objects() && rasters_left_out() == 0 && stats.ground_left_out == 0;
+  tally_.whole_scene = tally_.whole_scene && rendered.missing_dates.empty() && picture_->has_all_objects() &&
+                       rasters_left_out() == 0 && stats.ground_left_out == 0;
   if (is_complete(stats) || tally_.first_incomplete) return;
   tally_.first_incomplete = frame;
   tell_incomplete(frame, rendered);

@@ -78,7 +78,7 @@ ObjectFile objects_of(const py::object& geojson, const py::object& style) {
   return read;
 }
 
-LayerFeatures layer_features(const ObjectFile& file, double cluster_px) {
+StyledFeatures styled_features(const ObjectFile& file, double cluster_px) {
   return {features_of(file.scene), static_cast<std::size_t>(file.next) - 1, cluster_px};
 }
 
@@ -109,7 +109,7 @@ py::dict pick(PythonGlobe& self, double x, double y) {
 
 std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py::object& style, double cluster_px) {
   ObjectFile file = objects_of(geojson, style);
-  LayerFeatures features = layer_features(file, cluster_px);
+  StyledFeatures features = styled_features(file, cluster_px);
   const auto added = self.with_picture([&](ScenePicture& picture) -> Result<LayerId> {
     const std::vector<ClusterPoint> points = cluster_points(file.scene);
     auto layer = picture.globe().add_objects(std::move(file.scene));
@@ -126,7 +126,7 @@ std::uint64_t add_objects(PythonGlobe& self, const py::object& geojson, const py
 
 void set_objects(PythonGlobe& self, std::uint64_t layer, const py::object& geojson, const py::object& style) {
   ObjectFile file = objects_of(geojson, style);
-  LayerFeatures features = layer_features(file, self.features()[layer].cluster_px);
+  StyledFeatures features = styled_features(file, self.features()[layer].cluster_px);
   value_or_raise(self.with_picture([&](ScenePicture& picture) -> Status {
     const std::vector<ClusterPoint> points = cluster_points(file.scene);
     Status set = picture.globe().set_objects(LayerId{layer}, std::move(file.scene));
@@ -143,7 +143,7 @@ void set_style(PythonGlobe& self, std::uint64_t layer, const py::object& style, 
   const FeatureStyle look = style_of(style);
   const auto found = self.features().find(layer);
   if (found == self.features().end()) throw py::value_error("set_style is for layers that add_objects() added");
-  const LayerFeatures& features = found->second;
+  const StyledFeatures& features = found->second;
   const std::span<const double> numbers =
       values ? std::span(values->data(), static_cast<std::size_t>(values->size())) : std::span<const double>();
   if (values && (values->ndim() != 1 || numbers.size() != features.count)) {

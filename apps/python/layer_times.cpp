@@ -82,9 +82,10 @@ void set_layer_clock(PythonGlobe& self, std::uint64_t layer, const std::string& 
 
 void add_time_methods(GlobeClass& globe) {
   globe
-      .def_property("time", &time_of_globe, &set_time_of_globe,
-                    "Time in UTC of Sun, Moon and stars, such as '2026-06-21T12:00:00Z'; None: the light comes over the "
-                    "viewer's shoulder.")
+      .def_property(
+          "time", &time_of_globe, &set_time_of_globe,
+          "Time in UTC of Sun, Moon and stars, such as '2026-06-21T12:00:00Z'; None: the light comes over the "
+          "viewer's shoulder.")
       .def(
           "set_layer_time",
           [](PythonGlobe& self, std::uint64_t layer, const std::string& time) {
@@ -96,7 +97,8 @@ void add_time_methods(GlobeClass& globe) {
           "or before that. The next view has it.")
       .def("set_layer_clock", &set_layer_clock, py::arg("layer"), py::arg("clock"),
            "set_layer_clock(self, layer, clock)\n--\n\n"
-           "Choose the dates of a layer of imagery. 'own': set_layer_time() chooses. 'globe': the last date at or before "
+           "Choose the dates of a layer of imagery. 'own': set_layer_time() chooses. 'globe': the last date at or "
+           "before "
            "the globe's time. 'globe-fades': that one, and the next date fades in over it.")
       .def(
           "layer_time",

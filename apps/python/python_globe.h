@@ -37,7 +37,7 @@ T value_or_raise(Result<T> result) {
 }
 
 /// Features of an object layer, for styles.
-struct LayerFeatures {
+struct StyledFeatures {
   std::vector<FeatureParts> parts = {};
   std::size_t count = 0;    ///< all features, drawn or not
   double cluster_px = 0.0;  ///< radius of their clusters; 0: none
@@ -66,7 +66,7 @@ class PythonGlobe {
   PythonGlobe& operator=(const PythonGlobe&) = delete;
 
   /// The features of object layers, by their numbers.
-  [[nodiscard]] std::map<std::uint64_t, LayerFeatures>& features() { return features_; }
+  [[nodiscard]] std::map<std::uint64_t, StyledFeatures>& features() { return features_; }
 
   void close() {
     const py::gil_scoped_release others_run;
@@ -161,7 +161,7 @@ class PythonGlobe {
   Camera camera_;
   GlThread thread_;
   std::unique_ptr<ScenePicture> picture_;  // lives on the thread
-  std::map<std::uint64_t, LayerFeatures> features_;
+  std::map<std::uint64_t, StyledFeatures> features_;
 };
 
 using GlobeClass = py::class_<PythonGlobe>;

@@ -8,7 +8,7 @@ namespace terrella {
 class Viewer;
 
 /// Picture on a button of the control column, from top to bottom.
-enum class Icon { none, menu, compass, plus, minus, tilted, flat, home, back, forward };
+enum class Icon { none, menu, search, layers, clock, compass, plus, minus, tilted, flat, home, back, forward };
 
 /// An action of the user: its ways by keyboard and by mouse, its text and its effect. Keys, buttons, the menu, the list
 /// of shortcuts and the user's page all use this table (Viewer::actions). thread: any for the values, main for `run`

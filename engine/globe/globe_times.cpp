@@ -155,7 +155,8 @@ Result<LayerTime> Globe::layer_time(LayerId imagery) const {
   const ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::layer_time", "image layer", imagery);
   const ImageLayer* newest = impl_->newest_coming(*shown);
-  return LayerTime{.shown = shown->is_early() ? std::nullopt : instant_of(*shown), .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
+  return LayerTime{.shown = shown->is_early() ? std::nullopt : instant_of(*shown),
+                   .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
 }
 
 const std::deque<MissingInstant>& Globe::missing_instants() const {

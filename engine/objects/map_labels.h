@@ -52,8 +52,8 @@ class MapLabels {
   /// Returns the names of a picture, the highest rank first. A name faces the eye, and lies wholly in the picture and
   /// over the planet.
   [[nodiscard]] std::vector<ShownName> place(const View& view, const Ground& ground, const LabelPage& page);
-  /// Calls place() in `draw` for a picture of its own: names of earlier pictures count no more than others, and the next
-  /// picture after it follows the one before it.
+  /// Calls place() in `draw` for a picture of its own: names of earlier pictures count no more than others, and the
+  /// next picture after it follows the one before it.
   void apart(const std::function<void()>& draw);
   /// Forgets the names of the last place(), so that the same picture can be placed again.
   void take_back();

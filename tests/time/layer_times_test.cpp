@@ -285,7 +285,8 @@ TEST_F(LayerTimes, ADateFadesInOverTheOneBefore) {
     return std::array<double, 3>{double(rgba[0]), double(rgba[1]), double(rgba[2])};
   };
   for (const double opacity : {1.0, 0.5}) {
-    const auto before = pixel_at(date(4), LayerClock::globe, opacity), after = pixel_at(date(5), LayerClock::globe, opacity);
+    const auto before = pixel_at(date(4), LayerClock::globe, opacity),
+               after = pixel_at(date(5), LayerClock::globe, opacity);
     EXPECT_GE(after[2] - before[2], 3.0);
     for (const int hours : {0, 3, 6, 12, 18, 21, 23}) {
       const auto mean = pixel_at(date(4) + std::chrono::hours(hours), LayerClock::globe_fades, opacity);

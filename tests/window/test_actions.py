@@ -17,7 +17,7 @@ MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)
 MENU_AT = (450, 330)  # beside all panels
 PLACE_ITEM, FIRST_ACTION, ACTION_STEP = 34, 162, 19  # pixels under the menu's upper edge
 COLUMNS = (262, 470)  # pixels from the left, in the actions of the menu
-ICONS = ["menu", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
+ICONS = ["menu", "search", "layers", "clock", "compass", "plus", "minus", "tilted", "flat", "home", "back", "forward"]
 LAST_ICON, ICON_STEP, ICON_X = 407, 26, 612
 OBJECT = {"type": "Feature", "properties": {"note": "here"}, "geometry": {"type": "Point", "coordinates": [10, 20]}}
 RESET = "reset the view: settings as at the start, whole globe"
@@ -241,7 +241,7 @@ class Walk(WindowTest):
                 self.close),
             "shortcuts": (self.shown, lambda: key("F1"), lambda: menu("shortcuts"), none,
                           lambda: self.shown(lambda: self.viewer.click(*MENU_AT))),
-            "search for a place": (self.shown, lambda: key("slash"), lambda: menu("search for a place"), none,
+            "search for a place": (self.shown, lambda: key("slash"), lambda: icon("search"), none,
                                    self.close),
             "add data: public pictures by body and theme": (
                 self.shown, lambda: key("e"), lambda: menu("add data: public pictures by body and theme"), none,
@@ -267,7 +267,7 @@ class Walk(WindowTest):
                                             none),
             "open a file, folder or address": (self.shown, lambda: key("ctrl+o"),
                                                lambda: menu("open a file, folder or address"), none, self.close),
-            "play or pause the time": (self.said, lambda: key("t"), lambda: menu("play or pause the time"), none,
+            "play or pause the time": (self.said, lambda: key("t"), lambda: icon("clock"), none,
                                        lambda: key("t")),  # nothing stands still while it plays
             "dates of layers: play, step": (self.said, lambda: key("a"), lambda: menu("dates of layers: play, step"),
                                             self.silent, none),  # a message says that no layer has dates

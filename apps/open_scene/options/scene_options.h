@@ -66,18 +66,18 @@ struct SceneOptions {
   double cloud_height_m = 0.0;                   ///< height of the clouds over the ground
   SurfaceLook surface;
   StereoLook stereo;
-  bool keep_features = false;     ///< keep the features of the objects, for other styles
-  std::string objects;            ///< GeoJSON, or a vector file of GDAL's; empty: none
-  std::string object_style;       ///< JSON file of a style for the objects; empty: their own properties
-  double cluster_px = 0.0;        ///< radius of clusters of the points of `objects`; 0: none
-  std::optional<bool> map;        ///< --map; absent: the command's default
-  std::optional<bool> graticule;  ///< absent: the command's default
-  std::string places;             ///< GeoJSON file of names, for map and search; empty: the Earth's cities
-  bool sky = true;                ///< stars, Sun, Moon and atmosphere
-  std::optional<UtcTime> time;    ///< time of the sky
+  bool keep_features = false;               ///< keep the features of the objects, for other styles
+  std::string objects;                      ///< GeoJSON, or a vector file of GDAL's; empty: none
+  std::string object_style;                 ///< JSON file of a style for the objects; empty: their own properties
+  double cluster_px = 0.0;                  ///< radius of clusters of the points of `objects`; 0: none
+  std::optional<bool> map;                  ///< --map; absent: the command's default
+  std::optional<bool> graticule;            ///< absent: the command's default
+  std::string places;                       ///< GeoJSON file of names, for map and search; empty: the Earth's cities
+  bool sky = true;                          ///< stars, Sun, Moon and atmosphere
+  std::optional<UtcTime> time;              ///< time of the sky
   std::optional<LayerClock> layer_clock{};  ///< clock of all image layers; absent: that of their looks
-  bool night_lights = true;       ///< lights of the Earth's cities on the night side at `time`
-  std::size_t memory_mb = 512;    ///< limit for decoded tiles, in 2^20 bytes
+  bool night_lights = true;                 ///< lights of the Earth's cities on the night side at `time`
+  std::size_t memory_mb = 512;              ///< limit for decoded tiles, in 2^20 bytes
 
   [[nodiscard]] bool has_objects() const { return !objects.empty() || !object_layers.empty() || !drawings.empty(); }
 };

@@ -21,8 +21,26 @@ using Stroke = std::vector<ImVec2>;  // half the side of the button is 1, y down
 const ImU32 kIconInk = IM_COL32(232, 240, 248, 255);
 const ImU32 kNorth = IM_COL32(232, 84, 72, 255);
 
+Stroke circle(ImVec2 centre, float radius) {
+  constexpr int kSides = 20;
+  Stroke stroke;
+  for (int k = 0; k <= kSides; ++k) {
+    const Angle angle = Angle::degrees(360.0 * k / kSides);
+    stroke.push_back({centre.x + radius * static_cast<float>(std::sin(angle.rad())),
+                      centre.y - radius * static_cast<float>(std::cos(angle.rad()))});
+  }
+  return stroke;
+}
+
 std::vector<Stroke> strokes_of(Icon icon) {
   switch (icon) {
+    case Icon::search:
+      return {circle({-0.12F, -0.12F}, 0.34F), {{0.14F, 0.14F}, {0.5F, 0.5F}}};
+    case Icon::layers:  // two sheets
+      return {{{0.0F, -0.5F}, {0.55F, -0.18F}, {0.0F, 0.14F}, {-0.55F, -0.18F}, {0.0F, -0.5F}},
+              {{-0.55F, 0.12F}, {0.0F, 0.44F}, {0.55F, 0.12F}}};
+    case Icon::clock:
+      return {circle({0.0F, 0.0F}, 0.5F), {{0.0F, -0.3F}, {0.0F, 0.0F}, {0.22F, 0.14F}}};
     case Icon::menu:
       return {{{-0.45F, -0.35F}, {0.45F, -0.35F}}, {{-0.45F, 0.0F}, {0.45F, 0.0F}}, {{-0.45F, 0.35F}, {0.45F, 0.35F}}};
     case Icon::plus:
@@ -77,8 +95,8 @@ constexpr float kBetween = 0.5F;        // in text heights, to other panels
 constexpr std::size_t kEnough = 4;      // this many buttons at the right edge are better than more elsewhere
 constexpr std::size_t kLeast = 3;       // fewer buttons are not worth a column
 // The first have room first.
-constexpr std::array kByWorth = {Icon::menu,   Icon::compass, Icon::plus, Icon::minus,  Icon::home,
-                                 Icon::tilted, Icon::flat,    Icon::back, Icon::forward};
+constexpr std::array kByWorth = {Icon::menu, Icon::compass, Icon::plus, Icon::minus, Icon::search,  Icon::layers,
+                                 Icon::home, Icon::tilted,  Icon::flat, Icon::back,  Icon::forward, Icon::clock};
 
 /// Actions with an icon, from top to bottom, without those for which there is no room.
 std::vector<const Action*> buttons_of(std::span<const Action> actions, std::size_t room) {

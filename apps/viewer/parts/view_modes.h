@@ -43,9 +43,9 @@ class ViewModes : public Panel {
   Underground underground_;
   TimePlay play_;
   bool sky_;
-  ViewSettings start_;     ///< modes at the start
+  ViewSettings start_;         ///< modes at the start
   Seconds reset_until_{-1.0};  ///< a second reset() does not ask until then
-  ViewSettings settings_;  ///< settings in the panel, with the text as typed so far
+  ViewSettings settings_;      ///< settings in the panel, with the text as typed so far
 };
 
 }  // namespace terrella

@@ -94,7 +94,8 @@ void Timeline::play(bool on) {
   playing_ = on;
   stepped_ = Input::now();
   if (on) return;
-  for (const TimedLayer& layer : led(layers_())) static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
+  for (const TimedLayer& layer : led(layers_()))
+    static_cast<void>(context_.globe.load_layer_time(layer.id, std::nullopt));
 }
 
 void Timeline::advance() {
@@ -131,7 +132,8 @@ void Timeline::draw_open(float foot) {
 void Timeline::draw_contents(const std::vector<TimedLayer>& layers) {
   draw_dates(layers);
   const std::vector<TimedLayer> chosen = led(layers);
-  if (chosen.empty()) return write_wrapped("The dates follow the globe's time. T plays it; L gives a layer its own dates.", true);
+  if (chosen.empty())
+    return write_wrapped("The dates follow the globe's time. T plays it; L gives a layer its own dates.", true);
   const JoinedSteps steps = joined(chosen);
   draw_slider(steps);
   draw_buttons(steps);
