@@ -86,7 +86,7 @@ Result<Body> parse_figure(std::string_view text, std::string_view axis, std::str
 }  // namespace
 
 std::span<const Body> body_presets() {
-  static const std::array<Body, 24> presets = make_presets();
+  static const std::array<Body, 25> presets = make_presets();
   return presets;
 }
 

@@ -37,8 +37,9 @@ void Globe::Impl::follow_clock(LayerId id) {
     put_in_place();
   }
   image(id)->set_early(!step);
+  const bool is_there = newest_coming(*image(id)) == nullptr;  // the next one is asked for after it
   const std::optional<UtcTime> next =
-      step && clock == LayerClock::globe_fades ? steps->after(*step) : std::optional<UtcTime>();
+      step && is_there && clock == LayerClock::globe_fades ? steps->after(*step) : std::optional<UtcTime>();
   if (next == one.next) return;
   one.next = next;
   one.fades = false;
