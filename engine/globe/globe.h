@@ -32,6 +32,8 @@ namespace terrella {
 /// The instants of an image layer, in UTC. None: its source knows no time (TileSetInfo::instant).
 struct LayerTime {
   std::optional<UtcTime> shown{};   ///< the tiles on the screen; none too before the first instant (LayerClock)
+  std::optional<UtcTime> next{};    ///< the tiles that fade in over these (LayerClock); none: there are no such tiles
+  double next_share = 0.0;          ///< part of the colour that `next` has, [0, 1]
   std::optional<UtcTime> coming{};  ///< the tiles on their way to replace them; none: there are no such tiles
 };
 

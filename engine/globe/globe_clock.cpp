@@ -46,19 +46,27 @@ void Globe::Impl::follow_clock(LayerId id) {
   next ? follow(load_ahead(*image(id), *next), *next) : drop_coming(id, Coming::ahead);
 }
 
+Globe::Impl::Fade Globe::Impl::fade_of(const ImageLayer& shown) const {
+  const auto found = following.find(shown.id());
+  const std::optional<UtcTime> time = layer_clock();
+  if (found == following.end() || !found->second.fades || !time) return {};
+  const Following& one = found->second;
+  ImageLayer* next = coming_at(shown, *one.next);
+  if (next == nullptr || !next->turn().is_ahead || newest_coming(shown) != nullptr) return {};
+  const double share = std::chrono::duration<double>(*time - *one.step) / (*one.next - *one.step);
+  return share > 0.0 && share < 1.0 ? Fade{next, share} : Fade{};
+}
+
 // Two layers of opacity a(1-s)/(1-as) and as, one over the other, have the mean of their colours with weights 1-s and s
 // at opacity a.
 ImageLayer* Globe::Impl::fade_over(ImageLayer& shown) {
   shown.set_share(1.0);
-  const auto found = following.find(shown.id());
-  const std::optional<UtcTime> time = layer_clock();
-  if (found == following.end() || !found->second.next || !time) return nullptr;
-  Following& one = found->second;
-  ImageLayer* next = coming_at(shown, *one.next);
-  if (next == nullptr || !next->turn().is_ahead || newest_coming(shown) != nullptr) return nullptr;
-  one.fades = one.fades || (next->is_ready() && !next->is_void());
-  const double share = std::chrono::duration<double>(*time - *one.step) / (*one.next - *one.step);
-  if (!one.fades || share <= 0.0 || share >= 1.0) return nullptr;
+  if (const auto found = following.find(shown.id()); found != following.end() && found->second.next) {
+    const ImageLayer* next = coming_at(shown, *found->second.next);
+    found->second.fades = next != nullptr && (found->second.fades || (next->is_ready() && !next->is_void()));
+  }
+  const auto [next, share] = fade_of(shown);
+  if (next == nullptr) return nullptr;
   if (next->look() != shown.look()) next->set_look(shown.look());
   next->set_share(share);
   shown.set_share((1.0 - share) / (1.0 - shown.look().opacity * share));

@@ -79,6 +79,11 @@ struct Globe::Impl {
   [[nodiscard]] std::optional<UtcTime> layer_clock() const;
   void follow_clock();  ///< lets layers whose look says so follow the globe's time. Call it before a frame
   void follow_clock(LayerId id);
+  struct Fade {
+    ImageLayer* next = nullptr;  ///< fades in; null: none
+    double share = 0.0;          ///< part of the time from the shown instant to that of `next`
+  };
+  [[nodiscard]] Fade fade_of(const ImageLayer& shown) const;
   /// The coming layer that fades in over this one in the next frame, and both get their shares; null: none.
   [[nodiscard]] ImageLayer* fade_over(ImageLayer& shown);
   Status show_layers();

@@ -155,7 +155,10 @@ Result<LayerTime> Globe::layer_time(LayerId imagery) const {
   const ImageLayer* shown = impl_->image(imagery);
   if (shown == nullptr) return no_layer("Globe::layer_time", "image layer", imagery);
   const ImageLayer* newest = impl_->newest_coming(*shown);
+  const auto [next, share] = impl_->fade_of(*shown);
   return LayerTime{.shown = shown->is_early() ? std::nullopt : instant_of(*shown),
+                   .next = next == nullptr ? std::nullopt : instant_of(*next),
+                   .next_share = share,
                    .coming = newest == nullptr ? std::nullopt : instant_of(*newest)};
 }
 

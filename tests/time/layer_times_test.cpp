@@ -291,6 +291,8 @@ TEST_F(LayerTimes, ADateFadesInOverTheOneBefore) {
     for (const int hours : {0, 3, 6, 12, 18, 21, 23}) {
       const auto mean = pixel_at(date(4) + std::chrono::hours(hours), LayerClock::globe_fades, opacity);
       EXPECT_EQ(shown(), date(4));
+      EXPECT_NEAR(globe_->layer_time(layer_)->next_share, hours / 24.0, 1e-9);
+      EXPECT_EQ(globe_->layer_time(layer_)->next.has_value(), hours > 0);
       for (std::size_t k = 0; k < 3; ++k) {
         const double share = hours / 24.0;
         EXPECT_NEAR(mean[k], (1.0 - share) * before[k] + share * after[k], 1.0) << opacity << ' ' << hours << ' ' << k;

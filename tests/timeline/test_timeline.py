@@ -114,6 +114,20 @@ class Timeline(WindowTest):
         self.assertEqual(self.session()["layer-time"], DATES[1])
         self.shows(self.start(bare=False), "file returned", 1)
 
+    def test_the_globes_time_leads_a_layer(self):
+        viewer = self.start(self.set, "--unlit", "--camera", "0,0,1000000", "--layer-clock", "globe", "--time",
+                            f"{DATES[1]}T18:00Z")
+        self.shows(viewer, "led", 1)
+        viewer.key("a")
+        viewer.panel("Dates")
+        viewer.settled()
+        viewer.save_grab(self.folder / "panel.png")
+        viewer.key("a")
+        viewer.quit()
+        self.assertEqual(self.session()["clock"], "globe")
+        self.assertNotIn("layer-time", self.session(), "its date is the time's")
+        self.shows(self.start(bare=False), "returned", 1)
+
     def test_a_picture_without_dates_has_no_panel(self):
         viewer = self.start("--unlit")
         viewer.settled()

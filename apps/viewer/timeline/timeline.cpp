@@ -49,7 +49,8 @@ std::vector<std::string> Timeline::shown() const {
   for (const TimedLayer& layer : layers) {
     const auto time = context_.globe.layer_time(layer.id);
     if (!time || !time->shown) continue;
-    const std::string text = step_text(*time->shown, local_);
+    std::string text = step_text(*time->shown, local_);
+    if (time->next) text += fmt::format(", {:.0f} % {}", 100.0 * time->next_share, step_text(*time->next, local_));
     texts.push_back(layers.size() == 1 ? text : layer.name + " " + text);
   }
   return texts;
