@@ -44,7 +44,7 @@ enum class SwipeSide {
 
 /// Choice of the instant that an image layer shows, if its source has instants (TileSetInfo::steps).
 enum class LayerClock {
-  own,    ///< that of Globe::set_layer_time()
+  own,    ///< Globe::set_layer_time() chooses
   globe,  ///< the last one at or before the globe's time; none before the first, and then the layer does not show
   /// As globe, and the next instant fades in over the shown one in proportion to the time. An instant whose tiles have
   /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing.

@@ -13,7 +13,7 @@ DAYS = [0, 2, 3]
 COLOURS = [(200, 20, 20), (20, 180, 20), (20, 20, 220)]
 FRAMES, FPS, DAYS_LONG = 16, 8, 4.0
 START = datetime.datetime(2019, 12, 31, 12)
-LEVELS = 4  # of a tile's JPEG, and of rounding
+LEVELS = 4  # a tile's JPEG, and rounding
 
 
 class Dates(ProgramTest):

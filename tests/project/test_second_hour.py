@@ -33,7 +33,7 @@ class Served(http.server.SimpleHTTPRequestHandler):
 
 
 class Hands:
-    """What both walks do with a viewer."""
+    """A viewer, and places of its panels."""
 
     def __init__(self, viewer):
         self.viewer = viewer
