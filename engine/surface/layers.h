@@ -42,6 +42,16 @@ enum class SwipeSide {
   behind   ///< to the right of the line
 };
 
+/// Combination of an image layer's colour c with the colour b of the layers below it, channel by channel. Values are
+/// stored ones (sRGB) in [0, 1], before light and air, as editors of pictures and maps blend. Alpha and opacity then mix
+/// the result with b, as they do with `normal`.
+enum class LayerBlend {
+  normal,     ///< c
+  multiply,   ///< b · c
+  screen,     ///< b + c - b · c
+  difference  ///< |b - c|
+};
+
 /// Abscissa of the line of SurfaceLook::swipe in a picture, a whole number: it lies between two columns of pixels.
 /// thread: any
 [[nodiscard]] double swipe_px(double line, int width_px);
@@ -61,6 +71,9 @@ struct ImageLook {
   /// ground and throws a shadow on it. An eye below this height sees the layer on the ground, and no shadow.
   double height_m = 0.0;
   SwipeSide swipe = SwipeSide::both;
+  /// The lowest layer that is drawn is always `normal`, and a layer with a height must be. Unlit numbers, and a layer
+  /// directly over them, blend with the colours in the picture instead, and are not lit.
+  LayerBlend blend = LayerBlend::normal;
   /// Tone of a layer of pictures. The sea in a lowest layer with one does not mirror the Sun.
   ImageTone tone{};
   /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "surface/layers.h"
 #include "tiles/tile_grid.h"
 #include "view/render_modes.h"
 
@@ -38,6 +39,12 @@ using OptionWords = std::vector<std::pair<std::string, Value>>;
 }
 [[nodiscard]] inline OptionWords<Blend> blend_words() {
   return {{"normal", Blend::normal}, {"additive", Blend::additive}};
+}
+[[nodiscard]] inline OptionWords<LayerBlend> layer_blend_words() {
+  return {{"normal", LayerBlend::normal},
+          {"multiply", LayerBlend::multiply},
+          {"screen", LayerBlend::screen},
+          {"difference", LayerBlend::difference}};
 }
 [[nodiscard]] inline OptionWords<SurfaceFromBelow> from_below_words() {
   return {{"opaque", SurfaceFromBelow::opaque},

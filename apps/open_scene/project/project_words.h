@@ -53,7 +53,7 @@ inline constexpr std::array kSourceNames = {"projection",  "latitude",    "crs",
 // Fields of a layer.
 inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "shown", *kOpacity = "opacity",
                             *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height", *kSwipe = "swipe-side",
-                            *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
+                            *kLayerBlend = "blend", *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
                             *kEncoding = "elevation-encoding", *kStyle = "object-style", *kStyleOver = "classes",
                             *kPlace = "place", *kCluster = "cluster", *kOtherBody = "other-body", *kTitle = "title",
                             *kAttribution = "attribution";

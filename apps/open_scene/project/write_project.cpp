@@ -150,6 +150,7 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
   put_word(json, kDaylight, look.daylight, Daylight::both, daylight_words());
   put_word(json, kAlpha, look.alpha, AlphaFrom::own, alpha_words());
   put(json, kHeight, look.height_m, 0.0);
+  put_word(json, kLayerBlend, look.blend, LayerBlend::normal, layer_blend_words());
   const ImageTone plain;
   put(json, kBrightness, look.tone.brightness, plain.brightness);
   put(json, kContrast, look.tone.contrast, plain.contrast);
