@@ -19,10 +19,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/open_scene/options/option_words.h"
 #include "apps/process/console.h"
 #include "apps/process/option_names.h"
 #include "apps/process/stop_signals.h"
-#include "apps/open_scene/options/option_words.h"
 #include "apps/program/command_line.h"
 #include "apps/program/commands.h"
 #include "apps/program/scene_picture.h"

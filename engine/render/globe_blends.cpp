@@ -14,8 +14,7 @@ constexpr GLuint kCopyUnit = 11;  // patch_blend.glsl, patch_behind.frag
 }  // namespace
 
 bool GlobeRenderer::has_blends(const Pass& pass) {
-  return std::ranges::any_of(pass.upper(),
-                             [](const LayerFrame& layer) { return layer.blend != LayerBlend::normal; });
+  return std::ranges::any_of(pass.upper(), [](const LayerFrame& layer) { return layer.blend != LayerBlend::normal; });
 }
 
 // Copies the means of samples. False if the driver has no memory.
@@ -44,7 +43,8 @@ void GlobeRenderer::draw_on_ground(const Pass& pass, const LayerFrame& layer, co
   draw_upper(pass, layer, state);
 }
 
-// Colours below are needed as an opaque surface has them. The picture behind the surface then comes back with its share.
+// Colours below are needed as an opaque surface has them. The picture behind the surface then comes back with its
+// share.
 void GlobeRenderer::draw_blends_translucent(const Pass& pass, DrawState state) const {
   if (!copy_picture(pass, Copy::behind)) return;
   state.blend.reset();

@@ -43,8 +43,8 @@ enum class SwipeSide {
 };
 
 /// Combination of an image layer's colour c with the colour b of the layers below it, channel by channel. Values are
-/// stored ones (sRGB) in [0, 1], before light and air, as editors of pictures and maps blend. Alpha and opacity then mix
-/// the result with b, as they do with `normal`.
+/// stored ones (sRGB) in [0, 1], before light and air, as editors of pictures and maps blend. Alpha and opacity then
+/// mix the result with b, as they do with `normal`.
 enum class LayerBlend {
   normal,     ///< c
   multiply,   ///< b · c

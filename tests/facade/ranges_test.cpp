@@ -202,6 +202,7 @@ TEST_F(Ranges, OfImageLayers) {
       {"daylight", {0, 2}, {-1, 3}, [](ImageLook& l, double v) { l.daylight = Daylight(int(v)); }},
       {"alpha", {0, 1}, {-1, 2}, [](ImageLook& l, double v) { l.alpha = AlphaFrom(int(v)); }},
       {"swipe", {0, 2}, {-1, 3}, [](ImageLook& l, double v) { l.swipe = SwipeSide(int(v)); }},
+      {"blend", {0, 3}, {-1, 4}, [](ImageLook& l, double v) { l.blend = LayerBlend(int(v)); }},
       {"brightness", {-1.0, 1.0}, {-1.1, 1.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.brightness = v; }},
       {"contrast", {0.0, 4.0}, {-0.1, 4.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.contrast = v; }},
       {"gamma", {0.1, 10.0}, {0.0, 10.1, kNoNumberAtAll}, [](ImageLook& l, double v) { l.tone.gamma = v; }},

@@ -53,10 +53,10 @@ inline constexpr std::array kSourceNames = {"projection",  "latitude",    "crs",
 // Fields of a layer.
 inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "shown", *kOpacity = "opacity",
                             *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height", *kSwipe = "swipe-side",
-                            *kLayerBlend = "blend", *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
-                            *kEncoding = "elevation-encoding", *kStyle = "object-style", *kStyleOver = "classes",
-                            *kPlace = "place", *kCluster = "cluster", *kOtherBody = "other-body", *kTitle = "title",
-                            *kAttribution = "attribution";
+                            *kLayerBlend = "blend", *kBrightness = "brightness", *kContrast = "contrast",
+                            *kGamma = "gamma", *kEncoding = "elevation-encoding", *kStyle = "object-style",
+                            *kStyleOver = "classes", *kPlace = "place", *kCluster = "cluster",
+                            *kOtherBody = "other-body", *kTitle = "title", *kAttribution = "attribution";
 // Kinds of a layer.
 inline constexpr const char *kHeights = "heights", *kImagery = "imagery", *kObjects = "objects", *kModel = "model";
 inline constexpr std::array kEncodings = {"terrain-rgb", "terrarium"};

@@ -130,9 +130,8 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   if (const Status sane = check_look(image.look); !sane) reader.fail(sane.error().message);
   std::vector<std::string> words;
   for (const auto& [name, value] : layer.items()) {
-    constexpr std::array kOwn = {kKind,  kSource, kShown,      kOpacity,    kDaylight, kAlpha,     kHeight,
-                                 kSwipe, kLayerBlend, kBrightness, kContrast, kGamma,    kOtherBody, kTitle,
-                                 kAttribution};
+    constexpr std::array kOwn = {kKind,       kSource,     kShown,    kOpacity, kDaylight,  kAlpha, kHeight,     kSwipe,
+                                 kLayerBlend, kBrightness, kContrast, kGamma,   kOtherBody, kTitle, kAttribution};
     if (is_among(kOwn, name)) continue;
     if (!is_among(kSourceNames, name)) throw ProjectFault(fmt::format("{}: there is no field \"{}\"", where, name));
     const bool file = name == "colormap" && value.is_string() && !has_named_map(value.get<std::string>());

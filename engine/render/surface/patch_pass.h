@@ -127,8 +127,8 @@ class PatchPass {
   /// Draws what lies on the ground, over the depth of the base layer.
   void draw_ground(const GroundDraw& ground, const PatchLayer& base, const PatchBuffers& vertices,
                    const DrawState& state, FrameCounts& counts) const;
-  /// Depth only, with the same bits as those of draw(); or with that depth opaque black, the light of the air, or a copy
-  /// of the picture behind the surface.
+  /// Depth only, with the same bits as those of draw(); or with that depth opaque black, the light of the air, or a
+  /// copy of the picture behind the surface.
   enum class Whole { depth, black, air, behind };
   /// Makes the programs of draw_whole() for the scene, once. prepare() does so for `black`.
   Status prepare_whole(Whole what);
