@@ -146,8 +146,8 @@ class ExtentTest(ProgramTest):
         # Halfway from red to black, to the sum, and to both; without red below, blue covers.
         for blend, both in (("multiply", (100, 0, 0)), ("screen", (200, 0, 50)), ("difference", (200, 0, 50))):
             self.assert_done("render", "red.tif", "--overlay", "blue.tif:0.5", "--overlay-blend", blend, "--crs",
-                             "EPSG:4326", "--extent=-20,-20,50,50", "--size", "140x140", "-o", "map.tif", "--force")
-            np.testing.assert_allclose(self.open_map("map.tif").ReadAsArray()[:3, 80, 80], both, atol=1)
+                             "EPSG:4326", "--extent=-20,-20,50,50", "--size", "140x140", "-o", f"{blend}.tif")
+            np.testing.assert_allclose(self.open_map(f"{blend}.tif").ReadAsArray()[:3, 80, 80], both, atol=1)
 
     def test_numbers_have_their_colours(self):
         """A grey stretch from 0 to 255 shows each value as its level; what has no data is transparent."""
