@@ -28,12 +28,14 @@ struct TexelSize {
   double east_m = 1.0, north_m = 1.0;
 };
 
-/// Horn's slope of the middle one of 3x3 heights, rows from the north, degrees.
-float slope_deg(std::array<float, 9> z, const TexelSize& size) {
+/// Horn's slope of the middle one of 3x3 heights, rows from the north, degrees. Texels of a row near a pole are narrower
+/// than those of the next row.
+float slope_deg(std::array<float, 9> z, const std::array<TexelSize, 3>& sizes) {
   if (std::isnan(z[4])) return kUnknown;
   for (float& height : z) height = std::isnan(height) ? z[4] : height;
-  const double east = (z[2] + 2.0 * z[5] + z[8] - (z[0] + 2.0 * z[3] + z[6])) / (8.0 * size.east_m);
-  const double north = (z[0] + 2.0 * z[1] + z[2] - (z[6] + 2.0 * z[7] + z[8])) / (8.0 * size.north_m);
+  const auto rise = [&](std::size_t row) { return (double{z[3 * row + 2]} - z[3 * row]) / sizes[row].east_m; };
+  const double east = (rise(0) + 2.0 * rise(1) + rise(2)) / 8.0;
+  const double north = (z[0] + 2.0 * z[1] + z[2] - (z[6] + 2.0 * z[7] + z[8])) / (8.0 * sizes[1].north_m);
   return static_cast<float>(std::atan(std::hypot(east, north)) * 180.0 / M_PI);
 }
 
@@ -155,11 +157,11 @@ Result<EncodedTile, TileFailure> SlopeTiles::read_or_stop(const TileId& id, cons
     std::ranges::rotate(around, around.begin() + 1);
     around[2] = *std::move(next);
     if (row <= first) continue;
-    const TexelSize size = size_at(id, row - 1);
+    const std::array sizes{size_at(id, row - 2), size_at(id, row - 1), size_at(id, row)};
     for (std::size_t i = 0; i < side; ++i) {
       std::array<float, 9> heights{};
       for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = around[k / 3][i + k % 3];
-      made->values.push_back(slope_deg(heights, size));
+      made->values.push_back(slope_deg(heights, sizes));
     }
   }
   EncodedTile tile;

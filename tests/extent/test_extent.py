@@ -221,5 +221,48 @@ class ExtentTest(ProgramTest):
                 self.assert_nothing_but()
 
 
+class Slope(ProgramTest):
+    """--slope beside gdaldem, on hills with pixels that are square in metres at their latitude."""
+
+    open_map = ExtentTest.open_map
+    LAT, SIDE, STEP = 47.0, 300, 0.001
+    STEEPEST = 60.0
+    # Half a level of the map's grey, and the change of a metre's degrees over the hills: 0.3 % of the slope's tangent.
+    OFF = 0.5 * STEEPEST / 255 + 0.1
+
+    def test_equals_gdaldem(self):
+        sine = np.sin(np.radians(self.LAT))
+        across = 6378137.0 / np.sqrt(1 - 0.00669437999014 * sine**2)
+        along = across * (1 - 0.00669437999014) / (1 - 0.00669437999014 * sine**2)
+        pixel_m = np.radians(self.STEP) * along
+        east = self.STEP * along / (across * np.sqrt(1 - sine**2))
+        column, row = np.meshgrid(np.arange(self.SIDE), np.arange(self.SIDE))
+        heights = 900 * np.sin(column / 9.0) * np.cos(row / 13.0) + 4 * column
+        heights[40:50, 60:90] = -9999
+        heights = heights.astype(np.float32)[None]
+        save(self.folder / "hills.tif", heights, "EPSG:4326",
+             (10, east, 0, self.LAT + self.SIDE / 2 * self.STEP, 0, -self.STEP))
+        save(self.folder / "metres.tif", heights, "EPSG:32632", (0, pixel_m, 0, 0, 0, -pixel_m))
+        by_gdal = gdal.DEMProcessing("", str(self.folder / "metres.tif"), "slope", format="MEM").ReadAsArray()
+        extent = f"10,{self.LAT - self.SIDE / 2 * self.STEP},{10 + self.SIDE * east},{self.LAT + self.SIDE / 2 * self.STEP}"
+        told = self.assert_done("render", "hills.tif", "--slope", "--nodata=-9999", "--colormap", "grey", "--stretch",
+                                f"0,{self.STEEPEST:g}", f"--extent={extent}", "--crs", "EPSG:4326", "--size",
+                                f"{self.SIDE}x{self.SIDE}", "-o", "slope.tif")
+        self.assertIn("0 to 60 °", told.stderr)
+        pixels = self.open_map("slope.tif").ReadAsArray().astype(float)
+        # GDAL gives no slope beside pixels without data and at the edge.
+        known = np.ones((self.SIDE, self.SIDE), bool)
+        known[39:51, 59:91] = known[[0, -1]] = known[:, [0, -1]] = False
+        self.assertGreater(by_gdal[known].max(), 0.8 * self.STEEPEST)
+        off = np.abs(pixels[0] * self.STEEPEST / 255 - by_gdal)[known]
+        self.assertLess(off.max(), self.OFF)
+        self.assertTrue((pixels[-1][42:48, 62:88] == 0).all(), "no data is transparent")
+
+    def test_is_of_heights(self):
+        save(self.folder / "red.tif", np.full((3, 64, 64), 90, np.uint8), "EPSG:4326", (0, 0.5, 0, 32, 0, -0.5))
+        for angle in ("--slope", "--aspect"):
+            self.assert_fails(WRONG_USAGE, "render", "red.tif", angle, "--bands", "1,2,3", "-o", "a.png", says=[angle])
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -17,13 +17,16 @@ namespace {
 
 constexpr Viewport kBlended{64, 64};
 const TileGrid kBlendGrid{.tile_px = 64, .max_level = 3};
-const TileGrid kMercatorGrid{
-    .root_span_deg = 360.0, .tile_px = 64, .max_level = 4, .projection = Projection::web_mercator};
+const TileGrid kOtherRows{.tile_px = 64, .max_level = 3, .projection = Projection::equal_area};
 constexpr Rgba kBelow{200, 90, 30, 255}, kOwn{120, 60, 220, 255}, kOwnGlass{120, 60, 220, 128};
 constexpr LayerBlend kBlends[] = {LayerBlend::multiply, LayerBlend::screen, LayerBlend::difference};
-constexpr int kLevel = 1;  // of eight bits
+constexpr int kLevel = 1;        // of eight bits
+constexpr int kGlassLevels = 2;  // tiles with alpha are stored premultiplied, in eight bits
 // Light, and air by squares, make levels of the picture below coarser; the painted layer has a rounding of its own.
 constexpr int kLitLevels = 2;
+// Where haze is brighter than the ground, a level of the picture below is several of the ground.
+constexpr int kHazeLevels = 8;
+constexpr double kMostHazy = 0.01;
 
 using Part = std::array<double, 3>;
 
@@ -79,13 +82,27 @@ class Blends : public GlTest {
     for (std::size_t k = 0; k < a.rgba.size(); ++k) most = std::max(most, std::abs(int{a.rgba[k]} - int{b.rgba[k]}));
     return most;
   }
-  /// Blends kOwn and kOwnGlass over a globe that shows `below` everywhere.
-  void expect_formula(Globe& globe, const Part& below, const TileGrid& grid = kBlendGrid) {
+  /// The largest difference from the formula over a picture.
+  static double farthest_blend(const Picture& seen, const Picture& below, const Rgba& own, double opacity,
+                               LayerBlend blend) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < seen.rgba.size(); ++k) {
+      if (k % 4 == 3) continue;
+      Part under{};
+      under[k % 4] = below.rgba[k] / 255.0;
+      most = std::max(most, std::abs(seen.rgba[k] - 255.0 * after(under, own, opacity, blend)[k % 4]));
+    }
+    return most;
+  }
+  /// Blends kOwn and kOwnGlass over a globe that shows `below` everywhere, within `off` levels.
+  void expect_formula(Globe& globe, const Part& below, int off, const TileGrid& grid = kBlendGrid) {
+    const Picture bare = shot(globe);
+    EXPECT_LE(farthest(bare, below), off);
     for (const LayerBlend blend : kBlends) {
       for (const auto& [own, opacity] : {std::pair(kOwn, 1.0), {kOwn, 0.5}, {kOwnGlass, 1.0}, {kOwnGlass, 0.5}}) {
         SCOPED_TRACE(testing::Message() << int(blend) << ' ' << int{own[3]} << ' ' << opacity);
         const LayerId layer = add(globe, own, {.opacity = opacity, .blend = blend}, grid);
-        EXPECT_LE(farthest(shot(globe), after(below, own, opacity, blend)), kLevel);
+        EXPECT_LE(farthest_blend(shot(globe), bare, own, opacity, blend), own[3] < 255 ? kGlassLevels : kLevel);
         ASSERT_TRUE(globe.remove(layer));
       }
     }
@@ -102,7 +119,11 @@ class Blends : public GlTest {
         const LayerId painted = add(globe, rounded(after(part_of(kBelow), kOwn, 1.0, blend)));
         const Picture wanted = shot(globe, camera);
         ASSERT_TRUE(globe.remove(painted));
-        EXPECT_LE(farthest(seen, wanted), kLitLevels);
+        EXPECT_LE(farthest(seen, wanted), kHazeLevels);
+        int hazy = 0;
+        for (std::size_t k = 0; k < seen.rgba.size(); ++k)
+          hazy += std::abs(int{seen.rgba[k]} - int{wanted.rgba[k]}) > kLitLevels ? 1 : 0;
+        EXPECT_LE(hazy, kMostHazy * double(seen.rgba.size()));
         EXPECT_GT(farthest(shot(globe, camera), wanted), 20.0);
       }
     }
@@ -112,7 +133,7 @@ class Blends : public GlTest {
 TEST_F(Blends, EqualTheirFormulas) {
   const auto globe = globe_of(unlit_options());
   add(*globe, kBelow);
-  expect_formula(*globe, part_of(kBelow));
+  expect_formula(*globe, part_of(kBelow), 0);
 }
 
 TEST_F(Blends, OverMoreLayersThanOnePassCombines) {
@@ -126,14 +147,14 @@ TEST_F(Blends, OverMoreLayersThanOnePassCombines) {
       add(*globe, color, {.opacity = 0.5});
       below = after(below, color, 0.5, LayerBlend::normal);
     }
-    expect_formula(*globe, below);
+    expect_formula(*globe, below, 3 * kLevel);  // the passes below have roundings
   }
 }
 
 TEST_F(Blends, OfAnotherGrid) {
   const auto globe = globe_of(unlit_options());
   add(*globe, kBelow);
-  expect_formula(*globe, part_of(kBelow), kMercatorGrid);
+  expect_formula(*globe, part_of(kBelow), 0, kOtherRows);
 }
 
 TEST_F(Blends, OverAnotherAndUnderOthers) {
