@@ -72,7 +72,7 @@ Stretch stretch_of(const ColorMap& map, bool beyond) {
 
 Error wrong_for_pictures(const std::string& name) {
   return Error{fmt::format(
-      "{}: its tiles are pictures, and --colormap, --stretch, --nodata, --band, --bands and --slope are for "
+      "{}: its tiles are pictures, and --colormap, --stretch, --nodata, --band, --bands, --slope and --aspect are for "
       "rasters and sets of numbers; leave them out",
       name)};
 }
@@ -102,6 +102,12 @@ std::vector<std::string> facts_of(const TileSetInfo& info) {
                               b.south.deg(), b.north.deg()));
   lines.push_back(fmt::format("Pixels: {:.6g}° ({:.6g} m)", pixel_deg, pixel_deg * M_PI / 180.0 * radius_m));
   return lines;
+}
+
+/// All directions, each in a colour of its own.
+void round_the_compass(NumberOptions& options) {
+  if (options.stretch.empty()) options.stretch = {{.kind = StretchRule::Kind::range, .low = 0.0, .high = 360.0}};
+  if (options.colormap.empty()) options.colormap = "aspect";
 }
 
 /// Needs of a look that only the values can tell.
@@ -178,11 +184,14 @@ Result<ImageryLayer> open_layer(const SourceOptions& options) {
   if (numbers && options.numbers.stretch.size() > 1) {
     return Error{fmt::format("{}: one --stretch is enough for one band; three go with --bands", name)};
   }
-  if (options.numbers.slope) {
-    tiles = slope_tiles(*std::move(tiles), figure_of((*tiles)->info(), options.body), name);
+  NumberOptions colored = options.numbers;
+  if (const auto angle = colored.angle) {
+    const Ellipsoid figure = figure_of((*tiles)->info(), options.body);
+    tiles = slope_tiles(*std::move(tiles), *angle, figure, name);
     if (!tiles) return tiles.error();
+    if (*angle == GroundAngle::aspect) round_the_compass(colored);
   }
-  auto layer = layer_of(*std::move(tiles), options.numbers, name, true);
+  auto layer = layer_of(*std::move(tiles), colored, name, true);
   if (layer && layer->numbers) {
     print_message("terrella: {}: {}\n", name, look_text(*layer->numbers, *layer->look.numbers));
   }

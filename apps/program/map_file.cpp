@@ -220,6 +220,9 @@ Result<std::vector<MapLayer>> layers_of(const OpenedScene& scene, const FlatMap&
     if (!pixels) return Error{fmt::format("--crs {}: {}", in_quotes(map.crs), pixels.error().message)};
     MapLayer made{.pixels = *std::move(pixels), .look = *look};
     if (const auto& numbers = made.pixels->info().numbers) made.numbers = *numbers;
+    if (made.numbers.period > 0.0) {
+      return Error{layer.source.address.redacted() + ": a map of --extent has no directions; leave --aspect out"};
+    }
     layers.push_back(std::move(made));
   }
   return layers;

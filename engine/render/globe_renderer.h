@@ -52,7 +52,7 @@ struct LayerFrame {
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
   SwipeSide swipe = SwipeSide::both;
-  LayerBlend blend = LayerBlend::normal;  ///< of an upper layer
+  LayerBlend blend = LayerBlend::normal;  ///< normal for the base layer
   ImageTone tone{};
   bool unlit = false;     ///< neither lit nor seen through the air
   double height_m = 0.0;  ///< ImageLook::height_m

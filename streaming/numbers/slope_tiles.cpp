@@ -28,22 +28,27 @@ struct TexelSize {
   double east_m = 1.0, north_m = 1.0;
 };
 
-/// Horn's slope of the middle one of 3x3 heights, rows from the north, degrees. Texels of a row near a pole are narrower
-/// than those of the next row.
-float slope_deg(std::array<float, 9> z, const std::array<TexelSize, 3>& sizes) {
+/// Horn's angle of the middle one of 3x3 heights, rows from the north. Texels of a row near a pole are narrower than
+/// those of the next row.
+float angle_deg(std::array<float, 9> z, const std::array<TexelSize, 3>& sizes, GroundAngle angle) {
   if (std::isnan(z[4])) return kUnknown;
   for (float& height : z) height = std::isnan(height) ? z[4] : height;
   const auto rise = [&](std::size_t row) { return (double{z[3 * row + 2]} - z[3 * row]) / sizes[row].east_m; };
   const double east = (rise(0) + 2.0 * rise(1) + rise(2)) / 8.0;
   const double north = (z[0] + 2.0 * z[1] + z[2] - (z[6] + 2.0 * z[7] + z[8])) / (8.0 * sizes[1].north_m);
-  return static_cast<float>(std::atan(std::hypot(east, north)) * 180.0 / M_PI);
+  if (angle == GroundAngle::slope) return static_cast<float>(std::atan(std::hypot(east, north)) * 180.0 / M_PI);
+  if (east == 0.0 && north == 0.0) return kUnknown;
+  const double faces_deg = std::atan2(-east, -north) * 180.0 / M_PI;
+  return static_cast<float>(faces_deg < 0.0 ? faces_deg + 360.0 : faces_deg);
 }
 
 class SlopeTiles : public TileSource {
  public:
-  SlopeTiles(std::shared_ptr<TileSource> heights, const Ellipsoid& figure, double unit_m)
-      : heights_(std::move(heights)), figure_(figure), unit_m_(unit_m), info_(heights_->info()) {
-    info_.numbers = NumberInfo{.floats = true, .unit = "°", .quantity = "slope"};
+  SlopeTiles(std::shared_ptr<TileSource> heights, GroundAngle angle, const Ellipsoid& figure, double unit_m)
+      : heights_(std::move(heights)), angle_(angle), figure_(figure), unit_m_(unit_m), info_(heights_->info()) {
+    const bool slope = angle == GroundAngle::slope;
+    info_.numbers =
+        NumberInfo{.floats = true, .period = slope ? 0.0 : 360.0, .unit = "°", .quantity = slope ? "slope" : "aspect"};
   }
   [[nodiscard]] const TileSetInfo& info() const override { return info_; }
   [[nodiscard]] Result<EncodedTile, TileFailure> read(const TileId& id) override { return read_or_stop(id, {}); }
@@ -53,7 +58,7 @@ class SlopeTiles : public TileSource {
   [[nodiscard]] Result<std::unique_ptr<TileSource>> at_time(UtcTime time) override {
     auto other = heights_->at_time(time);
     if (!other) return other.error();
-    return std::unique_ptr<TileSource>(std::make_unique<SlopeTiles>(*std::move(other), figure_, unit_m_));
+    return std::unique_ptr<TileSource>(std::make_unique<SlopeTiles>(*std::move(other), angle_, figure_, unit_m_));
   }
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return heights_->count_tiles(level); }
 
@@ -64,6 +69,7 @@ class SlopeTiles : public TileSource {
   [[nodiscard]] TexelSize size_at(const TileId& id, std::int64_t row) const;
 
   std::shared_ptr<TileSource> heights_;
+  GroundAngle angle_;
   Ellipsoid figure_;
   double unit_m_;
   TileSetInfo info_;
@@ -161,7 +167,7 @@ Result<EncodedTile, TileFailure> SlopeTiles::read_or_stop(const TileId& id, cons
     for (std::size_t i = 0; i < side; ++i) {
       std::array<float, 9> heights{};
       for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = around[k / 3][i + k % 3];
-      made->values.push_back(slope_deg(heights, sizes));
+      made->values.push_back(angle_deg(heights, sizes, angle_));
     }
   }
   EncodedTile tile;
@@ -171,8 +177,8 @@ Result<EncodedTile, TileFailure> SlopeTiles::read_or_stop(const TileId& id, cons
 
 }  // namespace
 
-Result<std::shared_ptr<TileSource>> slope_tiles(std::shared_ptr<TileSource> heights, const Ellipsoid& figure,
-                                                const std::string& name) {
+Result<std::shared_ptr<TileSource>> slope_tiles(std::shared_ptr<TileSource> heights, GroundAngle angle,
+                                                const Ellipsoid& figure, const std::string& name) {
   if (!heights->info().numbers) return Error{name + ": its tiles are pictures, and a slope needs heights"};
   const std::string& unit = heights->info().numbers->unit;
   const auto unit_m = metres_of_unit(unit);
@@ -180,7 +186,7 @@ Result<std::shared_ptr<TileSource>> slope_tiles(std::shared_ptr<TileSource> heig
   if (heights->remote() != nullptr) {
     return Error{name + ": a slope needs heights on this computer; ‹preload› them, and name that file"};
   }
-  return std::shared_ptr<TileSource>(std::make_shared<SlopeTiles>(std::move(heights), figure, *unit_m));
+  return std::shared_ptr<TileSource>(std::make_shared<SlopeTiles>(std::move(heights), angle, figure, *unit_m));
 }
 
 }  // namespace terrella

@@ -34,7 +34,7 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                         .contours = 12.5};
   scene.base_look = {.shown = false, .opacity = 0.25};
   scene.base.other_body = true;
-  scene.base.numbers.slope = true;
+  scene.base.numbers.angle = GroundAngle::aspect;
   scene.base.remote.name = "Mars in grey";
   scene.base.remote.attribution = "Somebody";
   scene.layers = {

@@ -20,11 +20,11 @@ const TileGrid kBlendGrid{.tile_px = 64, .max_level = 3};
 const TileGrid kOtherRows{.tile_px = 64, .max_level = 3, .projection = Projection::equal_area};
 constexpr Rgba kBelow{200, 90, 30, 255}, kOwn{120, 60, 220, 255}, kOwnGlass{120, 60, 220, 128};
 constexpr LayerBlend kBlends[] = {LayerBlend::multiply, LayerBlend::screen, LayerBlend::difference};
-constexpr int kLevel = 1;        // of eight bits
+constexpr int kLevel = 1;        // one of eight bits
 constexpr int kGlassLevels = 2;  // tiles with alpha are stored premultiplied, in eight bits
 // Light, and air by squares, make levels of the picture below coarser; the painted layer has a rounding of its own.
 constexpr int kLitLevels = 2;
-// Where haze is brighter than the ground, a level of the picture below is several of the ground.
+// Before bright haze a level of the picture below is several levels of dark ground.
 constexpr int kHazeLevels = 8;
 constexpr double kMostHazy = 0.01;
 

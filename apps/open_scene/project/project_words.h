@@ -46,9 +46,9 @@ inline constexpr std::array kSettingNames = {"body",
                                              "depth"};
 /// Options of TILESET that an image layer may set.
 inline constexpr std::array kSourceNames = {
-    "projection", "latitude",   "crs",         "bounds",      "west",      "band",      "bands",
-    "stretch",    "nodata",     "colormap",    "lit-numbers", "contours",  "layer",     "style",
-    "matrix-set", "layer-time", "layer-times", "root-span",   "tile-size", "max-level", "slope"};
+    "projection",  "latitude",  "crs",         "bounds",    "west",  "band",  "bands",      "stretch",
+    "nodata",      "colormap",  "lit-numbers", "contours",  "layer", "style", "matrix-set", "layer-time",
+    "layer-times", "root-span", "tile-size",   "max-level", "slope", "aspect"};
 
 // Fields of a layer.
 inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "shown", *kOpacity = "opacity",

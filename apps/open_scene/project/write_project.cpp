@@ -108,7 +108,7 @@ void put_numbers(OrderedJson& json, const NumberOptions& numbers, const fs::path
   for (const StretchRule& rule : numbers.stretch) json["stretch"].push_back(stretch_text(rule));
   if (numbers.nodata) json["nodata"] = *numbers.nodata;
   put(json, "lit-numbers", numbers.lit, false);
-  put(json, "slope", numbers.slope, false);
+  if (numbers.angle) json[*numbers.angle == GroundAngle::slope ? "slope" : "aspect"] = true;
   put(json, "contours", numbers.contours, 0.0);
   if (numbers.colormap.empty()) return;
   json["colormap"] = has_named_map(numbers.colormap) ? numbers.colormap : seen_from(numbers.colormap, folder);
