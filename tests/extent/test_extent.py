@@ -222,7 +222,7 @@ class ExtentTest(ProgramTest):
 
 
 class Slope(ProgramTest):
-    """--slope beside gdaldem, on hills with pixels that are square in metres at their latitude."""
+    """--slope beside gdaldem, which gets the metres that pixels have at the hills' latitude."""
 
     open_map = ExtentTest.open_map
     LAT, SIDE, STEP = 47.0, 300, 0.001
@@ -234,17 +234,16 @@ class Slope(ProgramTest):
         sine = np.sin(np.radians(self.LAT))
         across = 6378137.0 / np.sqrt(1 - 0.00669437999014 * sine**2)
         along = across * (1 - 0.00669437999014) / (1 - 0.00669437999014 * sine**2)
-        pixel_m = np.radians(self.STEP) * along
-        east = self.STEP * along / (across * np.sqrt(1 - sine**2))
+        east_m, north_m = (np.radians(self.STEP) * radius for radius in (across * np.sqrt(1 - sine**2), along))
         column, row = np.meshgrid(np.arange(self.SIDE), np.arange(self.SIDE))
         heights = 900 * np.sin(column / 9.0) * np.cos(row / 13.0) + 4 * column
         heights[40:50, 60:90] = -9999
         heights = heights.astype(np.float32)[None]
         save(self.folder / "hills.tif", heights, "EPSG:4326",
-             (10, east, 0, self.LAT + self.SIDE / 2 * self.STEP, 0, -self.STEP))
-        save(self.folder / "metres.tif", heights, "EPSG:32632", (0, pixel_m, 0, 0, 0, -pixel_m))
+             (10, self.STEP, 0, self.LAT + self.SIDE / 2 * self.STEP, 0, -self.STEP))
+        save(self.folder / "metres.tif", heights, "EPSG:32632", (0, east_m, 0, 0, 0, -north_m))
         by_gdal = gdal.DEMProcessing("", str(self.folder / "metres.tif"), "slope", format="MEM").ReadAsArray()
-        extent = f"10,{self.LAT - self.SIDE / 2 * self.STEP},{10 + self.SIDE * east},{self.LAT + self.SIDE / 2 * self.STEP}"
+        extent = f"10,{self.LAT - self.SIDE / 2 * self.STEP},{10 + self.SIDE * self.STEP},{self.LAT + self.SIDE / 2 * self.STEP}"
         told = self.assert_done("render", "hills.tif", "--slope", "--nodata=-9999", "--colormap", "grey", "--stretch",
                                 f"0,{self.STEEPEST:g}", f"--extent={extent}", "--crs", "EPSG:4326", "--size",
                                 f"{self.SIDE}x{self.SIDE}", "-o", "slope.tif")

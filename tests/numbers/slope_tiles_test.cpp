@@ -1,10 +1,13 @@
 // Slopes of heights, judged by the derivatives of the formula that the heights follow.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "geo/body.h"
+#include "raster_files.h"
 #include "streaming/numbers/slope_tiles.h"
+#include "streaming/warp/warp_source.h"
 #include "tiles/height_decoder.h"
 #include "tiles/tile_range.h"
 
@@ -118,6 +121,84 @@ TEST(SlopeTiles, EqualThemWhereRowsAreSqueezed) {
   ASSERT_GT(squeeze_of_row(grid, 4, 0), 0);
   expect_slopes(grid, 4);
 }
+
+/// gdaldem's angles of hills, and this library's, pixel by pixel. gdaldem reads a copy whose pixels have the metres
+/// that they have at the hills' latitude.
+struct HillCase {
+  const char* mode;
+  GroundAngle angle;
+  double lat_deg;
+};
+
+class HillsBesideGdaldem : public testing::TestWithParam<HillCase> {
+ protected:
+  static constexpr int kAcross = 200, kDown = 150;
+  static constexpr double kWest_deg = 10.0, kStep_deg = 0.001;
+  static constexpr double kLeastSlope_deg = 1.0;  // level ground faces anywhere
+  static constexpr double kRounding_deg = 0.01;   // heights and angles as floats
+  /// The change of an angle by that of a degree of longitude, in metres, from the raster's middle to its edge.
+  [[nodiscard]] static double of_latitude_deg() {
+    return 0.5 * std::tan(std::abs(GetParam().lat_deg) * M_PI / 180.0) * 0.5 * kDown * kStep_deg;
+  }
+
+  static double hill_m(int x, int y) { return 900.0 * std::sin(x / 9.0) * std::cos(y / 13.0) + 4.0 * x; }
+  void SetUp() override {
+    const Ellipsoid figure = earth().ellipsoid;
+    const double lat = GetParam().lat_deg * M_PI / 180.0, n = figure.prime_vertical_radius_m(std::sin(lat));
+    const double m = n * figure.one_minus_e2() / (1.0 - figure.e2() * std::sin(lat) * std::sin(lat));
+    const double radians = kStep_deg * M_PI / 180.0;
+    top_deg_ = GetParam().lat_deg + 0.5 * kDown * kStep_deg;
+    write_raw(folder_.path() / "hills.raw", "Float32", kAcross, kDown, 1,
+              [](int x, int y, int) { return hill_m(x, y); });
+    ASSERT_TRUE(translate(fmt::format("-a_srs EPSG:4326 -a_ullr {} {} {} {}", kWest_deg, top_deg_,
+                                      kWest_deg + kAcross * kStep_deg, top_deg_ - kDown * kStep_deg),
+                          folder_.path() / "hills.raw", folder_.path() / "hills.tif"));
+    ASSERT_TRUE(translate(
+        fmt::format("-a_srs EPSG:32632 -a_ullr 0 0 {} {}", kAcross * radians * n * std::cos(lat), -kDown * radians * m),
+        folder_.path() / "hills.raw", folder_.path() / "metres.tif"));
+  }
+  [[nodiscard]] GdalPixels by_gdaldem(const std::string& mode) const {
+    const std::string out = (folder_.path() / (mode + ".tif")).string();
+    EXPECT_TRUE(run(fmt::format("{} {} {} {}", TERRELLA_GDALDEM, mode, (folder_.path() / "metres.tif").string(), out)));
+    return read_by_gdal(out, 1);
+  }
+
+  ScratchFolder folder_;
+  double top_deg_ = 0.0;
+};
+
+TEST_P(HillsBesideGdaldem, HaveItsAngles) {
+  const GdalPixels wanted = by_gdaldem(GetParam().mode), slope = by_gdaldem("slope");
+  const CrsPlace place{.to_crs = {kWest_deg, kStep_deg, 0.0, top_deg_, 0.0, -kStep_deg}, .crs = "EPSG:4326"};
+  auto opened = open_raster(folder_.path() / "hills.tif", place, {.heights = true, .stored = true});
+  ASSERT_TRUE(opened) << opened.error().message;
+  auto tiles = warp_source(*std::move(opened), {.figure = {earth().ellipsoid, {}, {}}, .tile_px = 64}, "hills.tif");
+  ASSERT_TRUE(tiles) << tiles.error().message;
+  const auto made = slope_tiles(*std::move(tiles), GetParam().angle, earth().ellipsoid, "hills.tif");
+  ASSERT_TRUE(made) << made.error().message;
+  int compared = 0;
+  double most = 0.0;
+  for (int y = 1; y < kDown - 1; y += 3) {
+    for (int x = 1; x < kAcross - 1; x += 3) {
+      if (slope.at(x, y, 0) < kLeastSlope_deg) continue;
+      const Geodetic at{.lat = Angle::degrees(top_deg_ - (y + 0.5) * kStep_deg),
+                        .lon = Angle::degrees(kWest_deg + (x + 0.5) * kStep_deg)};
+      const auto value = (*made)->value_at(at, earth().ellipsoid);
+      ASSERT_TRUE(value) << value.error().why;
+      most = std::max(most, std::abs(std::remainder(*value - wanted.at(x, y, 0), 360.0)));
+      ++compared;
+    }
+  }
+  EXPECT_LT(most, of_latitude_deg() + kRounding_deg);
+  EXPECT_GT(compared, 2000);
+}
+
+// gdaldem's aspect takes pixels for squares, as they are at 6.59 degrees.
+INSTANTIATE_TEST_SUITE_P(Modes, HillsBesideGdaldem,
+                         testing::Values(HillCase{"slope", GroundAngle::slope, 47.0},
+                                         HillCase{"slope", GroundAngle::slope, -70.0},
+                                         HillCase{"aspect", GroundAngle::aspect, 6.59}),
+                         [](const auto& one) { return one.param.mode + std::to_string(one.index); });
 
 // Ground that rises towards one side faces the other one.
 TEST(SlopeTiles, HaveDirectionsToo) {
