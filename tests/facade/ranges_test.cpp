@@ -248,6 +248,7 @@ TEST_F(Ranges, OfImageLayers) {
       {.floats = true},
       {{"scale", {-1.0, 1.0}, {0.0, kNoNumberAtAll, kInfinite}, [](NumberInfo& n, double v) { n.scale = v; }},
        {"offset", {-1e9}, {kNoNumberAtAll, kInfinite}, [](NumberInfo& n, double v) { n.offset = v; }},
+       {"period", {0.0, 1e9}, {-1.0, 1.1e9, kNoNumberAtAll}, [](NumberInfo& n, double v) { n.period = v; }},
        {"most",
         {0, 5},
         {-1},
