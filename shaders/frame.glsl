@@ -1,6 +1,9 @@
 // The frame's data for every program. FrameBlock in engine/render/gl/frame_block.h has the same layout.
 // Paper 1: A. Zuev, "Method of synthesis of a seamless textured sphere for visualization in geoinformation and
 // cartographic systems", 2023.
+#if defined(BLENDED_LAYER)
+#define SPECIAL_LAYER
+#endif
 layout(std140, binding = 0) uniform Frame {
   mat4 view_from_ecef;     // rotation only
   vec4 eye_high_ecef;      // metres, high and low floats of the double position
@@ -29,7 +32,7 @@ layout(std140, binding = 0) uniform Frame {
   // Place of the forward axis in the picture, pixels; slope of a pixel; left side of the eye's picture, pixels.
   vec4 axis_px;
   // The raised limb of PatchPass::set_limb(): its height, metres; square of the cosine towards the eye up to which it is
-  // raised; unused.
+  // raised; LayerBlend of the layer.
   vec4 limb;
   // The square of the cosine by the place in the picture (LimbSquare of engine/surface/limb.h): a place, pixels, and the
   // slope there; the bend, and the square at that place.

@@ -225,7 +225,8 @@ void check_map_options(const CLI::App& sub) {
                                   "--offline",    "--west",
                                   "--nodata",     "--stretch",
                                   "--colormap",   "--band",
-                                  "--bands",      "--unlit"};
+                                  "--bands",      "--unlit",
+                                  "--slope",      "--overlay-blend"};
   for (const CLI::Option* option : sub.get_options()) {
     if (option->count() == 0 || std::ranges::find(kOfMaps, option->get_name()) != kOfMaps.end()) continue;
     throw CLI::ValidationError("render", fmt::format("--extent and {}: a map shows images and numbers as they are; "

@@ -130,7 +130,8 @@ Status SceneOpener::add_pictures(const Url& address, const ImageLook& look) {
 
 /// The overlays, then --night, then --clouds, then the layers of a project.
 Status SceneOpener::add_images() {
-  for (const OverlayOption& overlay : options_.overlays) {
+  for (OverlayOption overlay : options_.overlays) {
+    overlay.blend = options_.overlay_blend;
     auto added = add_overlay(*scene_.globe, options_, overlay);
     if (!added) return added.error();
     scene_.images.push_back(*std::move(added));
@@ -245,7 +246,7 @@ Result<SceneLayer> add_overlay(Globe& globe, const SceneOptions& options, const 
   SourceOptions source = options_beside(options.base, overlay.tile_set);
   source.projection = options.overlay_projection;
   if (options.base.address.empty()) source.numbers = options.base.numbers;
-  return add_layer(globe, source, {.opacity = overlay.opacity});
+  return add_layer(globe, source, {.opacity = overlay.opacity, .blend = overlay.blend});
 }
 
 Result<OpenedScene> open_scene(SceneOptions options, const PrepareGlobe& prepare) {

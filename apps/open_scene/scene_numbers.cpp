@@ -14,6 +14,7 @@
 #include "geo/body.h"
 #include "streaming/numbers/colour_table.h"
 #include "streaming/numbers/sample_tiles.h"
+#include "streaming/numbers/slope_tiles.h"
 
 namespace terrella {
 namespace {
@@ -70,10 +71,17 @@ Stretch stretch_of(const ColorMap& map, bool beyond) {
 }
 
 Error wrong_for_pictures(const std::string& name) {
-  return Error{
-      fmt::format("{}: its tiles are pictures, and --colormap, --stretch, --nodata, --band and --bands are for rasters "
-                  "and sets of numbers; leave them out",
-                  name)};
+  return Error{fmt::format(
+      "{}: its tiles are pictures, and --colormap, --stretch, --nodata, --band, --bands, --slope and --aspect are for "
+      "rasters and sets of numbers; leave them out",
+      name)};
+}
+
+/// The ellipsoid of a set on a body, or without one, of the body that the set states.
+Ellipsoid figure_of(const TileSetInfo& info, const std::optional<Body>& on) {
+  if (on) return on->ellipsoid;
+  const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
+  return body ? body->ellipsoid : earth().ellipsoid;
 }
 
 /// Facts about the numbers and the grid of a set.
@@ -81,8 +89,7 @@ std::vector<std::string> facts_of(const TileSetInfo& info) {
   const NumberInfo& numbers = *info.numbers;
   const GeoRect& b = info.grid.bounds;
   const double pixel_deg = tile_span_deg(info.grid, info.grid.max_level) / info.grid.tile_px;
-  const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
-  const double radius_m = body ? body->ellipsoid.a_m() : earth().ellipsoid.a_m();
+  const double radius_m = figure_of(info, {}).a_m();
   std::vector<std::string> lines;
   if (numbers.nodata) lines.push_back(fmt::format("No data: {:.9g}", *numbers.nodata));
   if (numbers.scale != 1.0 || numbers.offset != 0.0) {
@@ -95,6 +102,12 @@ std::vector<std::string> facts_of(const TileSetInfo& info) {
                               b.south.deg(), b.north.deg()));
   lines.push_back(fmt::format("Pixels: {:.6g}° ({:.6g} m)", pixel_deg, pixel_deg * M_PI / 180.0 * radius_m));
   return lines;
+}
+
+/// All directions, each in a colour of its own.
+void round_the_compass(NumberOptions& options) {
+  if (options.stretch.empty()) options.stretch = {{.kind = StretchRule::Kind::range, .low = 0.0, .high = 360.0}};
+  if (options.colormap.empty()) options.colormap = "aspect";
 }
 
 /// Needs of a look that only the values can tell.
@@ -171,7 +184,14 @@ Result<ImageryLayer> open_layer(const SourceOptions& options) {
   if (numbers && options.numbers.stretch.size() > 1) {
     return Error{fmt::format("{}: one --stretch is enough for one band; three go with --bands", name)};
   }
-  auto layer = layer_of(*std::move(tiles), options.numbers, name, true);
+  NumberOptions colored = options.numbers;
+  if (const auto angle = colored.angle) {
+    const Ellipsoid figure = figure_of((*tiles)->info(), options.body);
+    tiles = slope_tiles(*std::move(tiles), *angle, figure, name);
+    if (!tiles) return tiles.error();
+    if (*angle == GroundAngle::aspect) round_the_compass(colored);
+  }
+  auto layer = layer_of(*std::move(tiles), colored, name, true);
   if (layer && layer->numbers) {
     print_message("terrella: {}: {}\n", name, look_text(*layer->numbers, *layer->look.numbers));
   }

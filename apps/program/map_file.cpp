@@ -66,6 +66,30 @@ Colour with_look(Colour colour, const ImageLook& look) {
   return colour;
 }
 
+/// As blended() of shaders/surface/patch_blend.glsl, of values that are not premultiplied.
+float blended(float below, float own, LayerBlend blend) {
+  switch (blend) {
+    case LayerBlend::multiply:
+      return below * own;
+    case LayerBlend::screen:
+      return below + own - below * own;
+    case LayerBlend::difference:
+      return std::abs(below - own);
+    case LayerBlend::normal:
+      break;
+  }
+  return own;
+}
+
+/// A colour of a layer blended with the colour below, as far as that one is there.
+Colour blended(Colour over, const Colour& below, LayerBlend blend) {
+  if (blend == LayerBlend::normal || over.a <= 0.0F || below.a <= 0.0F) return over;
+  const auto part = [&](float own, float under) {
+    return own * (1.0F - below.a) + over.a * below.a * blended(under / below.a, own / over.a, blend);
+  };
+  return {part(over.r, below.r), part(over.g, below.g), part(over.b, below.b), over.a};
+}
+
 /// The map's picture, drawn block by block.
 class MapDrawing {
  public:
@@ -111,10 +135,10 @@ class MapDrawing {
     const auto opacity = static_cast<float>(layer.look.opacity);
     bool shows = false;
     for (std::size_t i = 0; i < colours.size(); ++i) {
-      const Colour over = colour_at(layer, block, i);
+      Colour& under = colours[i];
+      const Colour over = blended(colour_at(layer, block, i), under, layer.look.blend);
       if (over.a <= 0.0F && over.r + over.g + over.b <= 0.0F) continue;
       shows = true;
-      Colour& under = colours[i];
       const float through = 1.0F - over.a * opacity;
       under = {over.r * opacity + under.r * through, over.g * opacity + under.g * through,
                over.b * opacity + under.b * through, over.a * opacity + under.a * through};
@@ -196,6 +220,9 @@ Result<std::vector<MapLayer>> layers_of(const OpenedScene& scene, const FlatMap&
     if (!pixels) return Error{fmt::format("--crs {}: {}", in_quotes(map.crs), pixels.error().message)};
     MapLayer made{.pixels = *std::move(pixels), .look = *look};
     if (const auto& numbers = made.pixels->info().numbers) made.numbers = *numbers;
+    if (made.numbers.period > 0.0) {
+      return Error{layer.source.address.redacted() + ": a map of --extent has no directions; leave --aspect out"};
+    }
     layers.push_back(std::move(made));
   }
   return layers;

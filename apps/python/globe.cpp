@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -18,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/open_scene/options/option_words.h"
 #include "apps/process/console.h"
 #include "apps/process/option_names.h"
 #include "apps/process/stop_signals.h"
@@ -209,6 +211,19 @@ void set_tone(PythonGlobe& self, std::uint64_t layer, double brightness, double 
   }));
 }
 
+void set_blend(PythonGlobe& self, std::uint64_t layer, const std::string& blend) {
+  const OptionWords<LayerBlend> words = layer_blend_words();
+  const auto known = std::ranges::find(words, blend, &std::pair<std::string, LayerBlend>::first);
+  if (known == words.end()) throw py::value_error("the blend is normal, multiply, screen or difference");
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    const auto look = globe.look(LayerId{layer});
+    if (!look) return look.error();
+    ImageLook changed = *look;
+    changed.blend = known->second;
+    return globe.set_look(LayerId{layer}, changed);
+  }));
+}
+
 /// Shows layers on one side of a line; none: everywhere.
 void set_swipe(PythonGlobe& self, std::optional<double> line, std::optional<std::uint64_t> before,
                std::optional<std::uint64_t> behind) {
@@ -272,6 +287,9 @@ void add_layer_methods(GlobeClass& globe) {
            py::arg("gamma") = 1.0,
            "set_tone(self, layer, brightness=0.0, contrast=1.0, gamma=1.0)\n--\n\n"
            "Change the colours of a layer of pictures: brightness -1 to 1, contrast 0 to 4, gamma 0.1 to 10.")
+      .def("set_blend", &set_blend, py::arg("layer"), py::arg("blend") = "normal",
+           "set_blend(self, layer, blend='normal')\n--\n\n"
+           "Set how a layer of imagery combines with the layers below: normal, multiply, screen or difference.")
       .def("set_swipe", &set_swipe, py::arg("line"), py::arg("before") = py::none(), py::arg("behind") = py::none(),
            "set_swipe(self, line, before=None, behind=None)\n--\n\n"
            "Compare two layers of imagery at a line, a fraction of the picture's width: one shows to its left, the "

@@ -49,7 +49,8 @@ void Globe::Impl::follow_clock(LayerId id) {
 Globe::Impl::Fade Globe::Impl::fade_of(const ImageLayer& shown) const {
   const auto found = following.find(shown.id());
   const std::optional<UtcTime> time = layer_clock();
-  if (found == following.end() || !found->second.fades || !time) return {};
+  const bool mixes = shown.look().blend == LayerBlend::normal;  // the sum of two other blends is no mean
+  if (found == following.end() || !found->second.fades || !time || !mixes) return {};
   const Following& one = found->second;
   ImageLayer* next = coming_at(shown, *one.next);
   if (next == nullptr || !next->turn().is_ahead || newest_coming(shown) != nullptr) return {};

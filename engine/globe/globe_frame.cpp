@@ -21,6 +21,14 @@ glm::dvec3 sun_over_the_shoulder(const View& view) {
   return glm::normalize(glm::normalize(view.eye.xyz_m) - 0.45 * view.right + 0.35 * view.up);
 }
 
+// A plain colour is nothing to blend with. Colours of unlit numbers take no light from a layer that blends with them.
+void agree_on_blends(std::vector<LayerFrame>& layers, bool has_plain) {
+  if (has_plain && layers.size() > 1) layers[1].blend = LayerBlend::normal;
+  for (std::size_t k = 1; k < layers.size(); ++k) {
+    if (layers[k].blend != LayerBlend::normal) layers[k].unlit = layers[k].unlit || layers[k - 1].unlit;
+  }
+}
+
 }  // namespace
 
 // The lowest drawn layer must be opaque. If it is not, a plain colour lies under it.
@@ -163,6 +171,7 @@ FrameInput GlobeView::Impl::frame_input(Viewport viewport, glm::ivec2 corner_px)
                    .naive_translucency = globe->experiments.naive_translucency,
                    .layers_one_by_one = globe->experiments.layers_one_by_one};
   for (LayerView* layer : stack) input.layers.push_back(layer->frame(layer == stack.front(), globe->sides()));
+  agree_on_blends(input.layers, stack.front()->layer().id() == LayerId::none);
   return input;
 }
 

@@ -170,7 +170,7 @@ bool ImageLayer::is_opaque(const PictureSides& sides) const {
 }
 
 bool ImageLayer::hides(const PictureSides& sides) const {
-  return opacity() >= 1.0 && !has_transparency_ && !is_special(sides);
+  return opacity() >= 1.0 && !has_transparency_ && look_.blend == LayerBlend::normal && !is_special(sides);
 }
 
 bool ImageLayer::is_special(const PictureSides& sides) const {

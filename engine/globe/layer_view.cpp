@@ -96,6 +96,7 @@ LayerFrame LayerView::frame(bool is_base, const PictureSides& sides) {
           .daylight = sides.night ? look.daylight : Daylight::both,
           .alpha = look.alpha,
           .swipe = sides.swipe ? look.swipe : SwipeSide::both,
+          .blend = is_base ? LayerBlend::normal : look.blend,
           .tone = look.tone,
           .unlit = numbers != nullptr && !look.numbers->lit,
           .height_m = is_base ? 0.0 : look.height_m,

@@ -13,11 +13,14 @@ Status GlobeRenderer::prepare_layers(const Pass& pass) {
     const bool numbers = layer.gpu->numbers != nullptr;
     if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches, stacks_.own[k]); !s) return s;
   }
+  if (has_blends(pass) && surface_look(pass) != SurfaceFromBelow::opaque) {
+    if (Status s = patches_->prepare_whole(PatchPass::Whole::behind); !s) return s;
+  }
   return patches_->prepare(stacks_);
 }
 
 // Layers up to the first that has other rows than the base layer, or a shadow, or light of its own that the base
-// layer's vertices do not have. A translucent surface is drawn layer by layer.
+// layer's vertices do not have, or that reads the picture below it. A translucent surface is drawn layer by layer.
 void GlobeRenderer::plan_stacks(const Pass& pass) {
   const auto& layers = pass.input.layers;
   stack_layers_.clear();
@@ -37,9 +40,9 @@ void GlobeRenderer::plan_stacks(const Pass& pass) {
                              .tone = tone_of(layer),
                              .special = layer.special,
                              .hides = layer.hides});
-    const bool fits =
-        &layer == &layers.front() || (shares_vertices(layer, layers.front()) &&
-                                      !(layer.height_m > 0.0 && pass.input.lit) && (!night || options_.night_lights));
+    const bool fits = &layer == &layers.front() ||
+                      (shares_vertices(layer, layers.front()) && !(layer.height_m > 0.0 && pass.input.lit) &&
+                       (!night || options_.night_lights) && layer.blend == LayerBlend::normal);
     if (opaque && fits && stacked + 1 == stack_layers_.size()) ++stacked;
   }
   // Objects on the ground come with the last layer of a patch, unless a layer is drawn by itself after it.

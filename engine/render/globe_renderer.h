@@ -52,6 +52,7 @@ struct LayerFrame {
   Daylight daylight = Daylight::both;
   AlphaFrom alpha = AlphaFrom::own;
   SwipeSide swipe = SwipeSide::both;
+  LayerBlend blend = LayerBlend::normal;  ///< normal for the base layer
   ImageTone tone{};
   bool unlit = false;     ///< neither lit nor seen through the air
   double height_m = 0.0;  ///< ImageLook::height_m
@@ -172,6 +173,7 @@ class GlobeRenderer {
     [[nodiscard]] std::span<const LayerFrame> upper() const { return std::span(input.layers).subspan(1); }
     [[nodiscard]] LayerRole role_of(const LayerFrame& layer) const {
       if (&layer == &base()) return LayerRole::base;
+      if (layer.blend != LayerBlend::normal) return LayerRole::blended;
       return layer.special ? LayerRole::special : LayerRole::upper;
     }
   };
@@ -241,6 +243,14 @@ class GlobeRenderer {
   void draw_layers_over_ground(const Pass& pass) const;
   [[nodiscard]] bool is_over_ground(const Pass& pass, const LayerFrame& layer) const;
   [[nodiscard]] static BlendState surface_blend(const SurfaceLook& look);
+
+  // globe_blends.cpp: layers that blend with the picture of the layers below.
+  [[nodiscard]] static bool has_blends(const Pass& pass);
+  enum class Copy { below, behind };
+  [[nodiscard]] bool copy_picture(const Pass& pass, Copy what) const;
+  void bind_copy(Copy what) const;
+  void draw_on_ground(const Pass& pass, const LayerFrame& layer, const DrawState& state) const;
+  void draw_blends_translucent(const Pass& pass, DrawState state) const;
 
   // globe_sight.cpp: the eyes, and the parts of the planet in their sight.
   [[nodiscard]] static std::vector<EyePicture> pictures_of(const FrameInput& input);

@@ -126,7 +126,7 @@ void GlobeRenderer::draw_layers(const Pass& pass, SurfaceFromBelow look, DrawSta
     if (is_over_ground(pass, layer)) {
       draw_at_height(pass, layer, -layer.height_m / ellipsoid_.a_m(), state);  // its shadow
     } else {
-      draw_upper(pass, layer, state);
+      draw_on_ground(pass, layer, state);
     }
   }
 }
@@ -161,6 +161,7 @@ void GlobeRenderer::draw_layers_over_ground(const Pass& pass) const {
 // First the background under the surface is dimmed. Then the layers add their parts from the top down. Meanwhile the
 // alpha of the picture holds the part that is left for lower layers. At the end the picture is opaque again.
 void GlobeRenderer::draw_layers_translucent(const Pass& pass, DrawState state) const {
+  if (has_blends(pass)) return draw_blends_translucent(pass, state);
   state.blend = surface_blend(pass.input.surface);
   state.blend->from_rgb = GL_ZERO;
   state.blend->from_alpha = GL_CONSTANT_ALPHA;
@@ -230,6 +231,7 @@ void GlobeRenderer::describe_layer(const Pass& pass, const LayerFrame& layer, Fr
   block.paper.w = static_cast<float>(layer.opacity);
   block.layer_look = look_of(pass, layer);
   block.layer_tone = tone_of(layer);
+  block.limb.z = static_cast<float>(layer.blend);
 }
 
 // Values of FrameBlock::layer_look.

@@ -13,6 +13,11 @@ Status check_tone(const ImageLook& look) {
   return Error{"numbers have the colours of their map; change its stretch or its colours"};
 }
 
+Status check_blend(const ImageLook& look) {
+  if (look.blend == LayerBlend::normal || !(look.height_m > 0.0)) return Done{};
+  return Error{"a layer with a height is drawn normally; set its height to 0, or its blend to normal"};
+}
+
 }  // namespace
 
 double swipe_px(double line, int width_px) { return std::round(line * width_px); }
@@ -31,6 +36,8 @@ Status check_look(const ImageLook& look) {
       .known("the source of its alpha", look.alpha, AlphaFrom::brightness)
       .known("the side of the swipe", look.swipe, SwipeSide::behind)
       .known("the clock of the layer", look.clock, LayerClock::globe_fades)
+      .known("the blend", look.blend, LayerBlend::difference)
+      .part("the layer's blend", check_blend(look))
       .in("the height of the layer", look.height_m, 0.0, 1e6, " m")
       .in("the brightness", look.tone.brightness, -1.0, 1.0)
       .in("the contrast", look.tone.contrast, 0.0, 4.0)

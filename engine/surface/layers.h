@@ -47,8 +47,19 @@ enum class LayerClock {
   own,    ///< Globe::set_layer_time() chooses
   globe,  ///< the last one at or before the globe's time; none before the first, and then the layer does not show
   /// As globe, and the next instant fades in over the shown one in proportion to the time. An instant whose tiles have
-  /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing.
+  /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing. A layer with
+  /// another blend than normal does not fade.
   globe_fades
+};
+
+/// Combination of an image layer's colour c with the colour b of the layers below it, channel by channel. Values are
+/// stored ones (sRGB) in [0, 1], before light and air, as editors of pictures and maps blend. Alpha and opacity then
+/// mix the result with b, as they do with `normal`.
+enum class LayerBlend {
+  normal,     ///< c
+  multiply,   ///< b · c
+  screen,     ///< b + c - b · c
+  difference  ///< |b - c|
 };
 
 /// Abscissa of the line of SurfaceLook::swipe in a picture, a whole number: it lies between two columns of pixels.
@@ -71,6 +82,9 @@ struct ImageLook {
   double height_m = 0.0;
   SwipeSide swipe = SwipeSide::both;
   LayerClock clock = LayerClock::own;  ///< without a time of the globe, or without instants, as own
+  /// The lowest layer that is drawn is always `normal`, and a layer with a height must be. Unlit numbers, and a layer
+  /// directly over them, blend with the colours in the picture instead, and are not lit.
+  LayerBlend blend = LayerBlend::normal;
   /// Tone of a layer of pictures. The sea in a lowest layer with one does not mirror the Sun.
   ImageTone tone{};
   /// Stretch and colour map: needed for a layer of numbers, empty for a layer of pictures.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "tiles/height_decoder.h"
 #include "tiles/texel_border.h"
@@ -14,33 +15,52 @@ namespace {
 
 constexpr int kCodes = 65536;
 
-/// Sums over the texels of a mip: numbers that have data, and how many there are.
+/// Sums over the texels of a mip: numbers that have data, and how many there are. Directions are summed as sines and
+/// cosines.
 struct NumberSums {
   std::vector<double> sums;
   std::vector<std::uint16_t> known;
+  std::vector<double> cosines{};  ///< empty: no directions
+  double radian = 0.0;            ///< a radian, in numbers that are directions
+  [[nodiscard]] double mean(std::size_t at) const {
+    if (cosines.empty()) return sums[at] / known[at];
+    const double angle = std::atan2(sums[at], cosines[at]);
+    return (angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle) * radian;
+  }
 };
 static_assert(1U << (2 * (kMaxMips - 1)) <= 0xFFFFU);
 
-NumberSums sums_of(const Numbers& numbers, const EncodedTile& tile) {
-  NumberSums finest;
+NumberSums sums_of(const Numbers& numbers, const EncodedTile& tile, double period) {
+  NumberSums finest{.sums = {}, .known = {}, .radian = period / (2.0 * std::numbers::pi)};
   finest.sums.reserve(numbers.values.size());
   finest.known.reserve(numbers.values.size());
   for (const float decoded : numbers.values) {
     const double number = decoded * tile.number_scale + tile.number_offset;
     const bool known = std::isfinite(number);
-    finest.sums.push_back(known ? number : 0.0);
     finest.known.push_back(known ? 1 : 0);
+    if (period > 0.0) {
+      finest.sums.push_back(known ? std::sin(number / finest.radian) : 0.0);
+      finest.cosines.push_back(known ? std::cos(number / finest.radian) : 0.0);
+    } else {
+      finest.sums.push_back(known ? number : 0.0);
+    }
   }
   return finest;
 }
 
 NumberSums halve(const NumberSums& from, std::size_t from_side, std::size_t to_side) {
   NumberSums to{std::vector<double>(to_side * to_side), std::vector<std::uint16_t>(to_side * to_side)};
+  to.cosines.resize(from.cosines.empty() ? 0 : to.sums.size());
+  to.radian = from.radian;
   for (std::size_t row = 0; row < to_side; ++row) {
     for (std::size_t column = 0; column < to_side; ++column) {
       const std::size_t upper = 2 * row * from_side + 2 * column, lower = upper + from_side;
       const std::size_t at = row * to_side + column;
       to.sums[at] = (from.sums[upper] + from.sums[upper + 1]) + (from.sums[lower] + from.sums[lower + 1]);
+      if (!from.cosines.empty()) {
+        const std::vector<double>& c = from.cosines;
+        to.cosines[at] = (c[upper] + c[upper + 1]) + (c[lower] + c[lower + 1]);
+      }
       to.known[at] = static_cast<std::uint16_t>(from.known[upper] + from.known[upper + 1] + from.known[lower] +
                                                 from.known[lower + 1]);
     }
@@ -64,7 +84,7 @@ std::vector<std::uint8_t> mip_texels(const NumberSums& sums, std::size_t side, s
     for (std::size_t column = 0; column < side; ++column) {
       const std::size_t at = row * side + column;
       const int known = sums.known[at];
-      const Texel texel = known == 0 || known < half ? none : to_texel(sums.sums[at] / known);
+      const Texel texel = known == 0 || known < half ? none : to_texel(sums.mean(at));
       std::memcpy(target + column * sizeof(Texel), &texel, sizeof(Texel));
     }
   });
@@ -82,7 +102,7 @@ std::vector<std::uint8_t> texels_of(const NumberSums& sums, std::size_t side, st
 }  // namespace
 
 NumberSlots number_slots(const NumberInfo& info) {
-  if (!info.whole) return {};
+  if (!info.whole || info.period > 0.0) return {};
   const double range = static_cast<double>(info.whole->most) - info.whole->least;
   if (range > kCodes - 1) return {};
   NumberSlots slots{.codes = true, .least = static_cast<double>(info.whole->least), .none = kCodes - 1};
@@ -110,7 +130,7 @@ Result<TileTexels, TileFailure> make_number_texels(const EncodedTile& tile, cons
   if (!numbers) return numbers.error();
   const NumberSlots slots = number_slots(info);
   const auto side = static_cast<std::size_t>(tile_px);
-  NumberSums sums = sums_of(*numbers, tile);
+  NumberSums sums = sums_of(*numbers, tile, info.period);
   TileTexels texels{.tile_px = tile_px, .gutter = gutter, .opaque = true, .mips = {}};
   texels.opaque = std::ranges::all_of(sums.known, [](std::uint16_t known) { return known == 1; });
   for (int mip = 0; mip < mips; ++mip) {

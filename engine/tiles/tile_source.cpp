@@ -43,6 +43,7 @@ Status check_numbers(const NumberInfo& info) {
       .finite("their scale", info.scale)
       .that(info.scale != 0.0, "their scale is 0; give the value of a step")
       .finite("their offset", info.offset)
+      .in("their period", info.period, 0.0, 1e9)
       .that(!info.whole || info.whole->least <= info.whole->most, "their range of whole numbers is empty")
       .result();
 }

@@ -38,6 +38,8 @@ struct NumberInfo {
   /// Set: all numbers at full resolution are whole and lie in this range, `nodata` included. Such numbers take half the
   /// memory of others on the GPU, if the range has fewer than 65536 numbers or contains `nodata`.
   std::optional<WholeRange> whole = {};
+  /// Above 0, to 1e9: directions. Numbers that differ by it are the same, as 0 and 360 degrees; means go round.
+  double period = 0.0;
   std::string unit = {};      ///< unit of values, for a person: "m", "°C"; empty: unknown, heights in metres
   std::string quantity = {};  ///< quantity of the values, for a person: "height", "temperature"; empty: unknown
   bool operator==(const NumberInfo&) const = default;

@@ -33,8 +33,9 @@ struct ColorMap {
 
 /// Names of the engine's own maps: viridis, magma, cividis, grey, terrain, diverging. thread: any
 [[nodiscard]] std::span<const std::string_view> color_map_names();
-/// One of the engine's maps; none if the name is unknown. `terrain` and `diverging` have their middle at position 0.5:
-/// the shore and the neutral grey (NumberLook::center). They are free to use. thread: any
+/// One of the engine's maps, or `aspect`, whose ends are the same; none if the name is unknown. `terrain` and
+/// `diverging` have their middle at position 0.5: the shore and the neutral grey (NumberLook::center). They are free to
+/// use. thread: any
 [[nodiscard]] std::optional<ColorMap> named_color_map(std::string_view name);
 /// The colour of a map at a position or, for a map by value, at a value; black for a map without stops. thread: any
 [[nodiscard]] Rgba8 color_at(const ColorMap& map, double at);

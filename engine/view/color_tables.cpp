@@ -80,6 +80,18 @@ constexpr std::array<ColorStop, 12> kTerrain = {{{0.0, {8, 26, 74}},
                                                  {0.94, {196, 188, 184}},
                                                  {1.0, {255, 255, 255}}}};
 
+// Round the compass from north: blue, green, yellow, red. Ground that faces north-west, from where maps are lit, and
+// ground that faces south-east differ the most in brightness.
+constexpr std::array<ColorStop, 9> kAspect = {{{0.0, {96, 168, 240}},
+                                               {0.125, {64, 152, 152}},
+                                               {0.25, {48, 128, 64}},
+                                               {0.375, {104, 104, 40}},
+                                               {0.5, {168, 72, 40}},
+                                               {0.625, {216, 104, 72}},
+                                               {0.75, {248, 184, 88}},
+                                               {0.875, {224, 224, 200}},
+                                               {1.0, {96, 168, 240}}}};
+
 constexpr std::array<std::string_view, 6> kNames = {"viridis", "magma", "cividis", "grey", "terrain", "diverging"};
 constexpr std::array<std::string_view, 6> kTables = {kViridis, kMagma, kCividis, kGrey, {}, kDiverging};
 
@@ -105,6 +117,7 @@ ColorMap evenly_spaced(std::string_view table) {
 std::span<const std::string_view> color_map_names() { return kNames; }
 
 std::optional<ColorMap> named_color_map(std::string_view name) {
+  if (name == "aspect") return ColorMap{.stops = {kAspect.begin(), kAspect.end()}};
   const auto found = std::ranges::find(kNames, name);
   if (found == kNames.end()) return std::nullopt;
   const std::string_view table = kTables[static_cast<std::size_t>(found - kNames.begin())];

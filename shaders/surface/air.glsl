@@ -30,3 +30,21 @@ vec3 through_air(vec3 lit_srgb, float alpha) {
 #else
 vec3 through_air(vec3 lit_srgb, float alpha) { return lit_srgb; }
 #endif
+
+#if defined(BLENDED_LAYER)
+// The opaque colour that through_air() has made `seen_srgb` of.
+vec3 before_air(vec3 seen_srgb) {
+#if defined(AIR)
+  vec3 through = air_through, light_sq = air_light;
+#if defined(NEAR_GROUND)
+  vec2 slope = (gl_FragCoord.xy - axis_px.xy) * axis_px.z;
+  float metres = air_metres(sqrt(1.0 + dot(slope, slope)) / gl_FragCoord.w);
+  through = max(vec3(0.0), 1.0 - air_through * metres) * air_tint;
+  light_sq = air_light * metres;
+#endif
+  return sqrt(max(seen_srgb * seen_srgb - light_sq, 0.0) / max(through, 1e-4));
+#else
+  return seen_srgb;
+#endif
+}
+#endif

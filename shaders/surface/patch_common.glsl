@@ -116,6 +116,9 @@ vec3 lit(vec3 imagery_srgb, float alpha, bool sea) {
 #if defined(SPECIAL_LAYER)
 in float shadow_of_layer;   // by day
 
+#if defined(BLENDED_LAYER)
+vec3 blended(vec3 imagery_srgb, float alpha);   // patch_blend.glsl
+#endif
 #endif
 
 // Shown fraction of a layer by day or night; `side`: layer_look.x.
@@ -149,6 +152,9 @@ void finish(Imagery imagery_srgb) {
   imagery_srgb.rgb = toned(imagery_srgb.rgb, alpha, layer_tone);
   if (layer_look.y > 0.0) alpha = brightness(imagery_srgb.rgb);
   share *= part_shown(layer_look.x) * on_side(layer_look.z);
+#if defined(BLENDED_LAYER)
+  imagery_srgb.rgb = blended(imagery_srgb.rgb, alpha);
+#endif
   if (surface_look.x < 0.0) {                    // the layer's shadow on the ground, behind the air
     color_srgb = vec4(through_air(vec3(0.0), 1.0), 1.0) * (alpha * share * shadow_of_layer);
     WRITE_DEPTH(1.0);
@@ -162,7 +168,7 @@ void finish(Imagery imagery_srgb) {
 #else
   vec3 color = lit(imagery_srgb.rgb, alpha, true);
 #endif
-#if defined(NUMBERS)
+#if defined(NUMBERS) || defined(BLENDED_LAYER)
   color_srgb = (layer_look.w > 0.0 ? vec4(imagery_srgb.rgb, alpha) : vec4(through_air(color, alpha), alpha)) * share;
 #else
   color_srgb = vec4(through_air(color, alpha), alpha) * share;

@@ -11,7 +11,8 @@ layout(binding = 3) uniform sampler2DArray tiles_precise;
 layout(binding = 4) uniform sampler2D number_colors;        // premultiplied; 0 to 1 is the stretch
 // Texel without data; how far other texels are from it at least; position in the stretch = texel * z + w.
 layout(location = 0) uniform vec4 number_look;
-// Contour lines: steps from 0 = texel * x + y; half the width of a line, pixels, or 0 without lines.
+// Contour lines: steps from 0 = texel * x + y; half the width of a line, pixels, or 0 without lines. Radians of a texel
+// of directions; 0: no directions.
 layout(location = 24) uniform vec4 number_lines;
 #endif
 
@@ -33,10 +34,16 @@ Cell cell_at(vec2 p) {
 }
 
 #if defined(NUMBERS)
-#define Texels vec2                                         // sum of texel times weight, sum of weights; known texels only
+// Sum of texel times weight, sum of weights; known texels only. Of directions: sums of sine and cosine times weight.
+#define Texels vec2
 
 vec2 known(vec4 texel, vec4 weight) {
-  vec4 share = weight * vec4(greaterThan(abs(texel - number_look.x), vec4(number_look.y)));
+  bvec4 is_known = greaterThan(abs(texel - number_look.x), vec4(number_look.y));
+  vec4 share = weight * vec4(is_known);
+  if (number_lines.w > 0.0) {
+    vec4 angle = mix(vec4(0.0), texel, is_known) * number_lines.w;
+    return vec2(dot(sin(angle), share), dot(cos(angle), share));
+  }
   return vec2(dot(texel, share), dot(vec4(1.0), share));
 }
 
@@ -81,9 +88,14 @@ vec4 with_lines(vec4 color, float steps) {
   return mix(color, ink, 0.75 * cover);
 }
 
-// Colour of a mean; clear if less than half of the weight has data.
+// Colour of a mean; clear if less than half of the weight has data, or no direction.
 Imagery seen(vec2 mean) {
   float number = mean.x / max(mean.y, 1e-6);
+  if (number_lines.w > 0.0) {
+    float angle = atan(mean.x, mean.y);
+    number = (angle < 0.0 ? angle + 6.28318531 : angle) / number_lines.w;
+    mean.y = step(1e-4, dot(mean, mean));
+  }
   vec4 color = textureLod(number_colors, vec2(number * number_look.z + number_look.w, 0.5), 0.0);
   if (number_lines.z > 0.0) color = with_lines(color, number * number_lines.x + number_lines.y);
   color *= step(0.5, mean.y);

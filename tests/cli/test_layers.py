@@ -49,6 +49,43 @@ class Layers(ProgramTest):
                           says=["--clouds", "lamps.gpkg:1.5"])
 
 
+class Blend(ProgramTest):
+    """--overlay-blend, and the blend of a layer of a project."""
+
+    BELOW, OWN = (200, 90, 30), (120, 60, 220)
+    BLENDS = {"normal": lambda b, c: c, "multiply": lambda b, c: b * c / 255,
+              "screen": lambda b, c: b + c - b * c / 255, "difference": lambda b, c: abs(b - c)}
+
+    def setUp(self):
+        super().setUp()
+        for name, color in (("below", self.BELOW), ("own", self.OWN)):
+            self.write(f"{name}.png", pictures.png(256, 128, color))
+
+    def seen(self, *arguments):
+        self.assert_done("render", *arguments, *SMALL, "--unlit", "--cache", "off", "--camera", "0,0,1e6")
+        return png.pixel(png.read(self.folder / "out.png"), 32, 32)[:3]
+
+    def test_each_blend_has_its_formula(self):
+        for blend, formula in self.BLENDS.items():
+            for opacity in (1.0, 0.5):
+                with self.subTest(blend, opacity=opacity):
+                    wanted = [b + opacity * (formula(b, c) - b) for b, c in zip(self.BELOW, self.OWN)]
+                    self.write("p.terrella", json.dumps({"terrella": 1, "layers": [
+                        {"kind": "imagery", "source": "below.png"},
+                        {"kind": "imagery", "source": "own.png", "opacity": opacity, "blend": blend}]}).encode())
+                    for scene in (["below.png", "--overlay", f"own.png:{opacity}", "--overlay-blend", blend],
+                                  ["p.terrella"]):
+                        for got, want in zip(self.seen(*scene), wanted):  # tiles are JPEG, which rounds
+                            self.assertLessEqual(abs(got - want), 3, scene)
+
+    def test_another_word_is_refused(self):
+        self.assert_fails(WRONG_USAGE, "render", "below.png", "-o", "out.png", "--overlay-blend", "burn",
+                          says=["--overlay-blend", "burn", "multiply"])
+        self.write("p.terrella", json.dumps({"terrella": 1, "layers": [
+            {"kind": "imagery", "source": "below.png", "blend": "burn"}]}).encode())
+        self.assert_fails(FAILED, "render", "p.terrella", "-o", "out.png", says=["blend", "burn"])
+
+
 class Swipe(ProgramTest):
     """--swipe: each side of the line is the picture with that side's layer alone."""
 

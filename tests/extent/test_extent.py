@@ -143,6 +143,11 @@ class ExtentTest(ProgramTest):
         pixels = self.open_map("map.tif").ReadAsArray()[:3]
         np.testing.assert_allclose(pixels[:, 80, 80], (100, 0, 50), atol=1)
         np.testing.assert_allclose(pixels[:, 10, 10], (200, 0, 0), atol=1)
+        # Halfway from red to black, to the sum, and to both; without red below, blue covers.
+        for blend, both in (("multiply", (100, 0, 0)), ("screen", (200, 0, 50)), ("difference", (200, 0, 50))):
+            self.assert_done("render", "red.tif", "--overlay", "blue.tif:0.5", "--overlay-blend", blend, "--crs",
+                             "EPSG:4326", "--extent=-20,-20,50,50", "--size", "140x140", "-o", f"{blend}.tif")
+            np.testing.assert_allclose(self.open_map(f"{blend}.tif").ReadAsArray()[:3, 80, 80], both, atol=1)
 
     def test_numbers_have_their_colours(self):
         """A grey stretch from 0 to 255 shows each value as its level; what has no data is transparent."""
@@ -214,6 +219,48 @@ class ExtentTest(ProgramTest):
             with self.subTest(words):
                 self.assert_fails(code, "render", *words, says=says)
                 self.assert_nothing_but()
+
+
+class Slope(ProgramTest):
+    """--slope beside gdaldem, which gets the metres that pixels have at the hills' latitude."""
+
+    open_map = ExtentTest.open_map
+    LAT, SIDE, STEP = 47.0, 300, 0.001
+    STEEPEST = 60.0
+    # Half a level of the map's grey, and the change of a metre's degrees over the hills: 0.3 % of the slope's tangent.
+    OFF = 0.5 * STEEPEST / 255 + 0.1
+
+    def test_equals_gdaldem(self):
+        sine = np.sin(np.radians(self.LAT))
+        across = 6378137.0 / np.sqrt(1 - 0.00669437999014 * sine**2)
+        along = across * (1 - 0.00669437999014) / (1 - 0.00669437999014 * sine**2)
+        east_m, north_m = (np.radians(self.STEP) * radius for radius in (across * np.sqrt(1 - sine**2), along))
+        column, row = np.meshgrid(np.arange(self.SIDE), np.arange(self.SIDE))
+        heights = 900 * np.sin(column / 9.0) * np.cos(row / 13.0) + 4 * column
+        heights[40:50, 60:90] = -9999
+        heights = heights.astype(np.float32)[None]
+        save(self.folder / "hills.tif", heights, "EPSG:4326",
+             (10, self.STEP, 0, self.LAT + self.SIDE / 2 * self.STEP, 0, -self.STEP))
+        save(self.folder / "metres.tif", heights, "EPSG:32632", (0, east_m, 0, 0, 0, -north_m))
+        by_gdal = gdal.DEMProcessing("", str(self.folder / "metres.tif"), "slope", format="MEM").ReadAsArray()
+        extent = f"10,{self.LAT - self.SIDE / 2 * self.STEP},{10 + self.SIDE * self.STEP},{self.LAT + self.SIDE / 2 * self.STEP}"
+        told = self.assert_done("render", "hills.tif", "--slope", "--nodata=-9999", "--colormap", "grey", "--stretch",
+                                f"0,{self.STEEPEST:g}", f"--extent={extent}", "--crs", "EPSG:4326", "--size",
+                                f"{self.SIDE}x{self.SIDE}", "-o", "slope.tif")
+        self.assertIn("0 to 60 °", told.stderr)
+        pixels = self.open_map("slope.tif").ReadAsArray().astype(float)
+        # GDAL gives no slope beside pixels without data and at the edge.
+        known = np.ones((self.SIDE, self.SIDE), bool)
+        known[39:51, 59:91] = known[[0, -1]] = known[:, [0, -1]] = False
+        self.assertGreater(by_gdal[known].max(), 0.8 * self.STEEPEST)
+        off = np.abs(pixels[0] * self.STEEPEST / 255 - by_gdal)[known]
+        self.assertLess(off.max(), self.OFF)
+        self.assertTrue((pixels[-1][42:48, 62:88] == 0).all(), "no data is transparent")
+
+    def test_is_of_heights(self):
+        save(self.folder / "red.tif", np.full((3, 64, 64), 90, np.uint8), "EPSG:4326", (0, 0.5, 0, 32, 0, -0.5))
+        for angle in ("--slope", "--aspect"):
+            self.assert_fails(WRONG_USAGE, "render", "red.tif", angle, "--bands", "1,2,3", "-o", "a.png", says=[angle])
 
 
 if __name__ == "__main__":

@@ -94,8 +94,10 @@ TEST_F(Attributions, LayersUnderAnOpaqueLayerHaveNone) {
   EXPECT_EQ(now(), Texts{"cover"});
   add(owed_to("film"), {.opacity = 0.3});
   EXPECT_EQ(now(), (Texts{"cover", "film"}));
-  ASSERT_TRUE(globe_->set_look(cover, {.alpha = AlphaFrom::brightness}));
-  EXPECT_EQ(now(), (Texts{"globe", "cover", "film"}));
+  for (const ImageLook& look : {ImageLook{.alpha = AlphaFrom::brightness}, ImageLook{.blend = LayerBlend::multiply}}) {
+    ASSERT_TRUE(globe_->set_look(cover, look));
+    EXPECT_EQ(now(), (Texts{"globe", "cover", "film"}));
+  }
   ASSERT_TRUE(globe_->set_look(cover, {}));
   EXPECT_EQ(now(), (Texts{"cover", "film"}));
   // Clear pixels anywhere in the layer may let those under it through.

@@ -124,6 +124,29 @@ TEST_F(NumberLayers, MixNothingInTheSqueezedRowsOfThePoles) {
   }
 }
 
+// Means of 350 and 10 degrees are near 0, in taps and in mips, and never the green of the other directions.
+TEST_F(NumberLayers, OfDirectionsGoRound) {
+  const auto northerly = [](double lon, double row) {
+    if (std::isnan(islands(lon, row))) return kNoData;
+    return std::fmod(std::floor(lon * 64.0) + std::floor(row * 64.0), 2.0) == 0.0 ? 350.0F : 10.0F;
+  };
+  const NumberLook look{.low = 0.0,
+                        .high = 360.0,
+                        .colors = {.stops = {{0.0, {255, 0, 0}}, {25.0, {0, 255, 0}}, {335.0, {255, 0, 0}}},
+                                   .by_value = true,
+                                   .discrete = true}};
+  for (const Texturing texturing : {Texturing::automatic, Texturing::vertex}) {
+    GlobeOptions options = unlit_options();
+    options.texturing = texturing;
+    const auto globe = empty_globe(options);
+    const NumberInfo directions{.floats = true, .period = 360.0};
+    add(*globe, std::make_shared<PaintedNumbers>(grid_of(), northerly, directions), {.numbers = look});
+    expect_unmixed(*globe, kPlainColor);
+    add(*globe, std::make_shared<PaintedNumbers>(grid_of(), northerly, directions), {.opacity = 0.5, .numbers = look});
+    expect_unmixed(*globe, kPlainColor);  // as a stack
+  }
+}
+
 TEST_F(NumberLayers, ShowTheLayerUnderThemWhereTheyHaveNoData) {
   constexpr Color kUnder{120, 120, 40};
   for (const double opacity : {1.0, 0.5}) {

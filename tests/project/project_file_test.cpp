@@ -34,21 +34,23 @@ SceneOptions full_scene(const ScratchFolder& folder) {
                         .contours = 12.5};
   scene.base_look = {.shown = false, .opacity = 0.25};
   scene.base.other_body = true;
+  scene.base.numbers.angle = GroundAngle::aspect;
   scene.base.remote.name = "Mars in grey";
   scene.base.remote.attribution = "Somebody";
-  scene.layers = {{.source = {.address = "https://example.org/{z}/{x}/{y}.png",
-                              .remote = {.layer = "a",
-                                         .matrix_set = "b",
-                                         .style = "c",
-                                         .time = "2024-07-01",
-                                         .root_span_deg = 288.0,
-                                         .tile_px = 512,
-                                         .max_level = 7}},
-                   .look = {.opacity = 0.1, .daylight = Daylight::night, .swipe = SwipeSide::before}},
-                  {.source = {},
-                   .look = {.alpha = AlphaFrom::brightness,
-                            .height_m = 8000.0,
-                            .tone = {.brightness = 0.1, .contrast = 1.5, .gamma = 0.8}}}};
+  scene.layers = {
+      {.source = {.address = "https://example.org/{z}/{x}/{y}.png",
+                  .remote = {.layer = "a",
+                             .matrix_set = "b",
+                             .style = "c",
+                             .time = "2024-07-01",
+                             .root_span_deg = 288.0,
+                             .tile_px = 512,
+                             .max_level = 7}},
+       .look = {.opacity = 0.1, .daylight = Daylight::night, .swipe = SwipeSide::before, .blend = LayerBlend::screen}},
+      {.source = {},
+       .look = {.alpha = AlphaFrom::brightness,
+                .height_m = 8000.0,
+                .tone = {.brightness = 0.1, .contrast = 1.5, .gamma = 0.8}}}};
   scene.layers.front().source.place.west_deg = {};
   scene.elevation = (folder / "heights.tif").string();
   scene.elevation_shown = false;

@@ -334,7 +334,14 @@ class Globes(ModuleTest):
         self.assertTrue((globe.render() == over).all())
         globe.set_tone(layer, contrast=0)
         self.assertLessEqual(abs(int(globe.render()[SIZE[1] // 2, middle, 0]) - 128), 1)
-        for wrong in (lambda: globe.set_swipe(2), lambda: globe.set_swipe(0.5, before=77),
+        globe.set_tone(layer)
+        globe.set_blend(layer, "multiply")
+        product = over.astype(int) * base / 255
+        inner = (slice(SIZE[1] // 2 - 9, SIZE[1] // 2 + 9), slice(middle - 9, middle + 9))
+        self.assertLessEqual(abs(globe.render()[inner] - product[inner]).max(), 1)
+        globe.set_blend(layer)
+        self.assertTrue((globe.render() == over).all())
+        for wrong in (lambda: globe.set_swipe(2), lambda: globe.set_blend(layer, "burn"), lambda: globe.set_swipe(0.5, before=77),
                       lambda: globe.set_tone(layer, gamma=0)):
             with self.assertRaises((ValueError, terrella.Error)):
                 wrong()

@@ -1,5 +1,6 @@
 """Undo and redo of layers by real mouse and keyboard: shown, opacity, order, removal, style."""
 
+import json
 import unittest
 
 import pictures
@@ -9,11 +10,13 @@ from real_window import SIZE, WindowTest, wait_until
 
 RED, GREEN = (200, 0, 0), (0, 200, 0)
 HALF = (100, 100, 0)
+BLENDS = {"multiply": (285, (0, 0, 0)), "difference": (325, (200, 200, 0)), "screen": (305, (200, 200, 0))}
 PROBE = (120, SIZE[1] // 2)  # beside the panel
 ROW, OPACITY = 65, 91  # pixels under the panel's upper edge
 BOX, NAME = 22, 90  # pixels from the panel's left edge
 SLIDER = (103, 167)  # the same, of the opacity: the middle and the end
 REMOVE = (268, 286)  # the same, in the row of a layer whose style is open
+COMPARISON, BLEND = (102, 191), (90, 240)  # the title of swipe, blend and tone; the list of blends
 BUTTONS = (91, 168, 154)  # the same, "Down", the height of both, and "Remove"
 
 
@@ -71,6 +74,25 @@ class Undo(WindowTest):
         self.viewer.drag((self.left + SLIDER[1], self.top + OPACITY), (self.left + SLIDER[0], self.top + OPACITY))
         self.back_and_forth("faded", GREEN, HALF)
         self.viewer.save_grab(self.folder / "panel.png")
+
+    def test_blends_which_the_next_start_has(self):
+        self.begin()
+        self.open_row()
+        self.click(*COMPARISON)
+        for name, (place, colour) in BLENDS.items():
+            self.click(*BLEND)
+            self.click(BLEND[0], place)
+            self.back_and_forth(name, GREEN, colour)
+        self.viewer.key("ctrl+y")
+        self.shows("screen again", BLENDS["screen"][1])
+        self.viewer.save_grab(self.folder / "blend.png")
+        self.viewer.key("l")  # closes the panel
+        self.viewer.settled()
+        self.assertEqual(self.viewer.quit(), 0)
+        session = json.loads((self.kept / "terrella" / "session.terrella").read_text(encoding="utf-8"))
+        self.assertEqual([layer.get("blend") for layer in session["layers"]], [None, None, "screen"])
+        self.viewer = self.start(bare=False)
+        self.shows("kept", BLENDS["screen"][1])
 
     def test_order_and_removal(self):
         self.begin()

@@ -99,6 +99,15 @@ void add_number_options(CLI::App& command, NumberOptions& options, double& pole_
           "Draw contour lines at the multiples of this step, one pixel wide, every fifth two (default: 0, none)")
       ->check(number_in(0.0, 1e30))
       ->type_name("STEP");
+  CLI::Option* slope = command.add_flag_callback(
+      "--slope", [&options] { options.angle = GroundAngle::slope; },
+      "Show the slope of heights, in degrees from level ground, as a layer of numbers. Heights of a server are "
+      "preloaded first");
+  CLI::Option* aspect = command.add_flag_callback(
+      "--aspect", [&options] { options.angle = GroundAngle::aspect; },
+      "Show the direction that the ground of heights faces, in degrees clockwise from north, as a layer of numbers");
+  slope->excludes(aspect)->excludes(command.get_option("--bands"));
+  aspect->excludes(command.get_option("--bands"));
   command.add_flag("--lit-numbers", options.lit,
                    "Let Sun, relief and air change the colours of numbers too. Otherwise they are those of the legend");
 }

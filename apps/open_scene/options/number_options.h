@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "streaming/numbers/slope_tiles.h"
 #include "streaming/numbers/stretch_rule.h"
 
 namespace terrella {
@@ -21,12 +22,13 @@ struct NumberOptions {
   std::optional<std::array<int, 3>> bands{};  ///< shown as red, green and blue, counted from 1
   bool lit = false;                           ///< NumberLook::lit
   double contours = 0.0;                      ///< NumberLook::contour_step
+  std::optional<GroundAngle> angle{};         ///< the numbers are heights, and their slope or aspect is shown
   bool heights = false;                       ///< set by --elevation: reads numbers as heights in any case
   bool operator==(const NumberOptions&) const = default;
 
   /// True if the user wants a raster of any kind read as numbers.
   [[nodiscard]] bool ask_for_numbers() const {
-    return !bands && (!colormap.empty() || !stretch.empty() || nodata || band > 0);
+    return !bands && (!colormap.empty() || !stretch.empty() || nodata || band > 0 || angle);
   }
 };
 
@@ -36,9 +38,9 @@ void add_stretch_options(CLI::App& command, NumberOptions& options);
 /// Adds --colormap, after add_stretch_options(). thread: main
 void add_colormap_option(CLI::App& command, NumberOptions& options);
 
-/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers, --contours. --band was the width
-/// of paper 1's pole bands before it was a band of a raster: a fraction goes to `pole_band`, a whole number is a band.
-/// thread: main
+/// Adds all of these for a raster that is shown, and --band, --nodata, --lit-numbers, --contours, --slope, --aspect.
+/// --band was the width of paper 1's pole bands before it was a band of a raster: a fraction goes to `pole_band`, a
+/// whole number is a band. thread: main
 void add_number_options(CLI::App& command, NumberOptions& options, double& pole_band);
 
 /// A band's number, a whole number from 1 on. thread: any

@@ -43,6 +43,12 @@ using OptionWords = std::vector<std::pair<std::string, Value>>;
 [[nodiscard]] inline OptionWords<Blend> blend_words() {
   return {{"normal", Blend::normal}, {"additive", Blend::additive}};
 }
+[[nodiscard]] inline OptionWords<LayerBlend> layer_blend_words() {
+  return {{"normal", LayerBlend::normal},
+          {"multiply", LayerBlend::multiply},
+          {"screen", LayerBlend::screen},
+          {"difference", LayerBlend::difference}};
+}
 [[nodiscard]] inline OptionWords<SurfaceFromBelow> from_below_words() {
   return {{"opaque", SurfaceFromBelow::opaque},
           {"translucent", SurfaceFromBelow::translucent},

@@ -16,6 +16,7 @@ namespace terrella {
 struct OverlayOption {
   Url tile_set;
   double opacity = 1.0;
+  LayerBlend blend = LayerBlend::normal;
 };
 
 /// An image layer of a project.
@@ -50,6 +51,7 @@ struct SceneOptions {
   Viewport size{.width_px = 1024, .height_px = 1024};
   std::vector<OverlayOption> overlays;           ///< above the tile set, lowest first
   std::optional<Projection> overlay_projection;  ///< absent: as each overlay states
+  LayerBlend overlay_blend = LayerBlend::normal;
   bool unlit = false;
   Texturing texturing = Texturing::automatic;
   double paper_a = 4.0;

@@ -120,6 +120,9 @@ void add_overlay_options(CLI::App& command, SceneOptions& options) {
       ->allow_extra_args(false);
   add_choice<Projection>(command, "--overlay-projection", options.overlay_projection, projection_words(),
                          "Set the projection of overlays that do not state it, such as URL templates");
+  add_choice<LayerBlend>(command, "--overlay-blend", options.overlay_blend, layer_blend_words(),
+                         "Choose how overlays combine with the layers below them")
+      ->default_str("normal");
 }
 
 void add_layer_options(CLI::App& command, SceneOptions& options) {

@@ -45,18 +45,18 @@ inline constexpr std::array kSettingNames = {"body",
                                              "detail",
                                              "depth"};
 /// Options of TILESET that an image layer may set.
-inline constexpr std::array kSourceNames = {"projection",  "latitude",    "crs",       "bounds",    "west",
-                                            "band",        "bands",       "stretch",   "nodata",    "colormap",
-                                            "lit-numbers", "contours",    "layer",     "style",     "matrix-set",
-                                            "layer-time",  "layer-times", "root-span", "tile-size", "max-level"};
+inline constexpr std::array kSourceNames = {
+    "projection",  "latitude",  "crs",         "bounds",    "west",  "band",  "bands",      "stretch",
+    "nodata",      "colormap",  "lit-numbers", "contours",  "layer", "style", "matrix-set", "layer-time",
+    "layer-times", "root-span", "tile-size",   "max-level", "slope", "aspect"};
 
 // Fields of a layer.
 inline constexpr const char *kKind = "kind", *kSource = "source", *kShown = "shown", *kOpacity = "opacity",
                             *kDaylight = "daylight", *kAlpha = "alpha", *kHeight = "height", *kSwipe = "swipe-side",
-                            *kClock = "clock", *kBrightness = "brightness", *kContrast = "contrast", *kGamma = "gamma",
-                            *kEncoding = "elevation-encoding", *kStyle = "object-style", *kStyleOver = "classes",
-                            *kPlace = "place", *kCluster = "cluster", *kOtherBody = "other-body", *kTitle = "title",
-                            *kAttribution = "attribution";
+                            *kClock = "clock", *kLayerBlend = "blend", *kBrightness = "brightness",
+                            *kContrast = "contrast", *kGamma = "gamma", *kEncoding = "elevation-encoding",
+                            *kStyle = "object-style", *kStyleOver = "classes", *kPlace = "place", *kCluster = "cluster",
+                            *kOtherBody = "other-body", *kTitle = "title", *kAttribution = "attribution";
 // Kinds of a layer.
 inline constexpr const char *kHeights = "heights", *kImagery = "imagery", *kObjects = "objects", *kModel = "model";
 inline constexpr std::array kEncodings = {"terrain-rgb", "terrarium"};

@@ -120,6 +120,7 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   if (fields.has(kAttribution)) image.source.remote.attribution = fields.text(kAttribution);
   read_word(fields, kDaylight, daylight_words(), image.look.daylight);
   read_word(fields, kAlpha, alpha_words(), image.look.alpha);
+  read_word(fields, kLayerBlend, layer_blend_words(), image.look.blend);
   if (fields.has(kBrightness)) image.look.tone.brightness = fields.number(kBrightness);
   if (fields.has(kContrast)) image.look.tone.contrast = fields.number(kContrast);
   if (fields.has(kGamma)) image.look.tone.gamma = fields.number(kGamma);
@@ -130,8 +131,9 @@ LayerOption read_image(const Reader& reader, const Json& layer, const std::strin
   if (const Status sane = check_look(image.look); !sane) reader.fail(sane.error().message);
   std::vector<std::string> words;
   for (const auto& [name, value] : layer.items()) {
-    constexpr std::array kOwn = {kKind,       kSource,   kShown, kOpacity,   kDaylight, kAlpha,       kHeight, kSwipe,
-                                 kBrightness, kContrast, kGamma, kOtherBody, kTitle,    kAttribution, kClock};
+    constexpr std::array kOwn = {kKind,      kSource, kShown,       kOpacity,    kDaylight, kAlpha,
+                                 kHeight,    kSwipe,  kLayerBlend,  kBrightness, kContrast, kGamma,
+                                 kOtherBody, kTitle,  kAttribution, kClock};
     if (is_among(kOwn, name)) continue;
     if (!is_among(kSourceNames, name)) throw ProjectFault(fmt::format("{}: there is no field \"{}\"", where, name));
     const bool file = name == "colormap" && value.is_string() && !has_named_map(value.get<std::string>());

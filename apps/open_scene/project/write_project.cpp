@@ -108,6 +108,7 @@ void put_numbers(OrderedJson& json, const NumberOptions& numbers, const fs::path
   for (const StretchRule& rule : numbers.stretch) json["stretch"].push_back(stretch_text(rule));
   if (numbers.nodata) json["nodata"] = *numbers.nodata;
   put(json, "lit-numbers", numbers.lit, false);
+  if (numbers.angle) json[*numbers.angle == GroundAngle::slope ? "slope" : "aspect"] = true;
   put(json, "contours", numbers.contours, 0.0);
   if (numbers.colormap.empty()) return;
   json["colormap"] = has_named_map(numbers.colormap) ? numbers.colormap : seen_from(numbers.colormap, folder);
@@ -150,6 +151,7 @@ OrderedJson image_json(const SourceOptions& source, const ImageLook& look, const
   put_word(json, kDaylight, look.daylight, Daylight::both, daylight_words());
   put_word(json, kAlpha, look.alpha, AlphaFrom::own, alpha_words());
   put(json, kHeight, look.height_m, 0.0);
+  put_word(json, kLayerBlend, look.blend, LayerBlend::normal, layer_blend_words());
   const ImageTone plain;
   put(json, kBrightness, look.tone.brightness, plain.brightness);
   put(json, kContrast, look.tone.contrast, plain.contrast);

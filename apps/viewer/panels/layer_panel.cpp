@@ -58,13 +58,17 @@ void draw_look(LayerRow& row) {
       "fading: the next date fades in over it.");
 }
 
-/// Side of a swipe, and tone, which a click opens.
+/// Side of a swipe, blend, and tone, which a click opens.
 void draw_comparison(LayerRow& row) {
-  const bool open = ImGui::TreeNode(row.numbers ? "Swipe" : "Swipe, tone");
-  tip("Side of the swipe's line (V); brightness, contrast and gamma.");
+  const bool open = ImGui::TreeNode(row.numbers ? "Swipe, blend" : "Swipe, blend, tone");
+  tip("Side of the swipe's line (V); blend; brightness, contrast and gamma.");
   if (!open) return;
   choose("Side", row.look.swipe, std::array{"both", "left", "right"});
   tip("Shows the layer only to the left or right of the swipe's line (V).");
+  if (row.look.height_m == 0.0) {
+    choose("Blend", row.look.blend, std::array{"normal", "multiply", "screen", "difference"});
+    tip("Multiply darkens, and screen brightens, the layers below. Difference shows where two layers differ.");
+  }
   if (!row.numbers) {
     ImageTone& tone = row.look.tone;
     slide("Brightness", tone.brightness, -1.0, 1.0, "%.2f");

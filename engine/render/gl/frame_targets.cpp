@@ -70,15 +70,17 @@ bool FrameTargets::has_memory() const {
   return form_.samples == 0 || (gl::has_storage(color_samples_) && gl::has_storage(depth_samples_));
 }
 
-FrameTargets::Beside FrameTargets::beside() {
-  if (!beside_) {
-    beside_ = make_picture(GL_RGBA8, form_.size);
-    if (!gl::has_storage(beside_)) beside_ = {};
-    if (!beside_) return {};
-    beside_framebuffer_ = gl::make_framebuffer();
-    glNamedFramebufferTexture(beside_framebuffer_.name(), GL_COLOR_ATTACHMENT0, beside_.name(), 0);
+FrameTargets::Beside FrameTargets::beside(std::size_t which) {
+  gl::Texture& texture = beside_[which];
+  gl::Framebuffer& framebuffer = beside_framebuffer_[which];
+  if (!texture) {
+    texture = make_picture(GL_RGBA8, form_.size);
+    if (!gl::has_storage(texture)) texture = {};
+    if (!texture) return {};
+    framebuffer = gl::make_framebuffer();
+    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
   }
-  return {beside_framebuffer_.name(), beside_.name()};
+  return {framebuffer.name(), texture.name()};
 }
 
 void FrameTargets::resolve_color(const Beside& beside) const {

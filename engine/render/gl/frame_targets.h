@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 
@@ -37,24 +39,26 @@ class FrameTargets {
   [[nodiscard]] Viewport size() const { return form_.size; }
   [[nodiscard]] bool has_stencil() const { return form_.has_stencil; }
   [[nodiscard]] int samples() const { return form_.samples; }
-  /// Returns a second picture of the same size, for passes that read and write the picture. Its content is undefined.
-  /// Its texture is 0 if the driver has no memory for it.
+  /// Returns one of two more pictures of the same size, for passes that read and write the picture. Its content is
+  /// undefined. Its texture is 0 if the driver has no memory for it.
   struct Beside {
     GLuint framebuffer = 0, texture = 0;
   };
-  [[nodiscard]] Beside beside();
+  [[nodiscard]] Beside beside(std::size_t which = 0);
   /// Copies the means of the samples to color() and to a picture beside it. Does nothing without samples.
   void resolve_color(const Beside& beside) const;
   void resolve_depth() const;  ///< copies one sample of each pixel to depth(); does nothing without samples
-  /// Copies a picture without samples to a framebuffer, with its lower left corner at `corner_px`.
+  /// Copies a picture to a framebuffer without samples, with its lower left corner at `corner_px`.
   void copy_to(GLuint framebuffer, glm::ivec2 corner_px) const;
 
  private:
   void resolve(GLbitfield what, GLuint into) const;
   [[nodiscard]] bool has_memory() const;
 
-  gl::Texture color_, depth_, beside_, color_samples_, depth_samples_;
-  gl::Framebuffer framebuffer_, beside_framebuffer_, resolved_;
+  gl::Texture color_, depth_, color_samples_, depth_samples_;
+  std::array<gl::Texture, 2> beside_;
+  gl::Framebuffer framebuffer_, resolved_;
+  std::array<gl::Framebuffer, 2> beside_framebuffer_;
   Form form_;
   std::uint64_t frame_ = 0;
 };

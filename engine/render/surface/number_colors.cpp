@@ -1,5 +1,7 @@
 #include "render/surface/number_colors.h"
 
+#include <numbers>
+
 namespace terrella {
 namespace {
 
@@ -26,9 +28,10 @@ glm::vec4 uniform_of(const NumberInfo& info, const NumberSlots& slots, const Num
 
 /// Value of the uniform `number_lines`.
 glm::vec4 lines_of(const NumberInfo& info, const NumberSlots& slots, const NumberLook& look) {
-  if (look.contour_step == 0.0) return glm::vec4(0.0F);
+  const double radians = info.period > 0.0 ? 2.0 * std::numbers::pi / info.period : 0.0;
+  if (look.contour_step == 0.0) return {0.0F, 0.0F, 0.0F, radians};
   const auto [factor, first] = value_of_texel(info, slots);
-  return {factor / look.contour_step, first / look.contour_step, kHalfLine_px, 0.0F};
+  return {factor / look.contour_step, first / look.contour_step, kHalfLine_px, radians};
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ enum class LayerRole {
   base,     ///< opaque
   upper,    ///< premultiplied by the tiles' alpha and the opacity in the frame's uniform block
   special,  ///< upper, and LayerFrame::special
+  blended,  ///< special, and LayerFrame::blend is not normal: reads a copy of the picture below (globe_blends.cpp)
 };
 
 /// Draws the patches of the surface, layer by layer, with a state that the caller gives. Owns their programs. The
@@ -126,8 +127,9 @@ class PatchPass {
   /// Draws what lies on the ground, over the depth of the base layer.
   void draw_ground(const GroundDraw& ground, const PatchLayer& base, const PatchBuffers& vertices,
                    const DrawState& state, FrameCounts& counts) const;
-  /// Depth only, with the same bits as those of draw(); or with that depth opaque black, or the light of the air.
-  enum class Whole { depth, black, air };
+  /// Depth only, with the same bits as those of draw(); or with that depth opaque black, the light of the air, or a
+  /// copy of the picture behind the surface.
+  enum class Whole { depth, black, air, behind };
   /// Makes the programs of draw_whole() for the scene, once. prepare() does so for `black`.
   Status prepare_whole(Whole what);
   /// Draws the whole surface. Needs prepare_whole().
@@ -214,9 +216,9 @@ class PatchPass {
     gl::Program programs[kVariants];
     gl::Program air;
   };
-  static constexpr std::size_t kRoles = 3, kAirs = 3;
+  static constexpr std::size_t kRoles = 4, kAirs = 3;
   ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
-  gl::Program depth_programs_[2], flat_programs_[2];  ///< for whole patches, and for the limb
+  gl::Program depth_programs_[2], flat_programs_[2], behind_programs_[2];  ///< for whole patches, and for the limb
   std::map<std::uint64_t, gl::Program> stack_programs_;
   std::map<std::uint64_t, gl::Program> ground_programs_;  ///< by ground_place() of PatchGround::Batch::look
   gl::VertexArray vertex_array_, stack_array_, ground_array_;

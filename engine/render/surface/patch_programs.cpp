@@ -11,7 +11,7 @@
 namespace terrella {
 namespace {
 /// #defines of LayerRole.
-constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER"};
+constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER", "BLENDED_LAYER"};
 /// #defines by the number of layers of a stack.
 constexpr std::string_view kStackDefines[PatchStacks::kMost + 1] = {"NO_STACK", "STACK 1", "STACK 2", "STACK 3",
                                                                     "STACK 4"};
@@ -111,13 +111,15 @@ Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<Select
 gl::Program& PatchPass::whole_program(Whole what, bool limb) {
   // The air before the ground is the same in every light; its vertices have slopes if those are lit.
   if (what == Whole::air) return sets_[set_index(LayerRole::base, false, {.relief = scene_.light.relief})].air;
-  return what == Whole::depth ? depth_programs_[limb ? 1 : 0] : flat_programs_[limb ? 1 : 0];
+  auto& programs = what == Whole::depth ? depth_programs_ : what == Whole::behind ? behind_programs_ : flat_programs_;
+  return programs[limb ? 1 : 0];
 }
 
 Status PatchPass::prepare_whole(Whole what) {
-  const std::string_view file = what == Whole::air     ? "patch_air.frag"
-                                : what == Whole::depth ? "patch_depth.frag"
-                                                       : "patch_flat.frag";
+  const std::string_view file = what == Whole::air      ? "patch_air.frag"
+                                : what == Whole::depth  ? "patch_depth.frag"
+                                : what == Whole::behind ? "patch_behind.frag"
+                                                        : "patch_flat.frag";
   for (const bool limb : {false, true}) {
     gl::Program& program = whole_program(what, limb);
     if (program || (limb && !scene_.limb)) continue;
@@ -204,18 +206,18 @@ Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, 
   const int which = variant / 2;
   Extras extras{.city_lights = variant % 2 == 1, .limb = which >= PatchLayer::limb};
   extras.pole = is_polar(which);
-  const std::string_view file = kFiles[which];
-  if (!extras.pole) {
-    return build(
-        place,
-        {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl", "magnify.glsl", file},
-        role, numbers, extras);
+  std::vector<std::string_view> files = {"frame.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl"};
+  if (role == LayerRole::blended) files.emplace_back("patch_blend.glsl");
+  files.emplace_back("patch_taps.glsl");
+  if (extras.pole) {
+    if (Status chosen = choose_functions(); !chosen) return chosen;
+    files.insert(files.begin() + 1, "functions.glsl");
+    files.insert(files.end(), {"patch_exact_point.glsl", "patch_polar_taps.glsl"});
+  } else {
+    files.emplace_back("magnify.glsl");
   }
-  if (Status chosen = choose_functions(); !chosen) return chosen;
-  return build(place,
-               {"frame.glsl", "functions.glsl", "air.glsl", "patch_relief.glsl", "patch_common.glsl", "patch_taps.glsl",
-                "patch_exact_point.glsl", "patch_polar_taps.glsl", file},
-               role, numbers, extras);
+  files.emplace_back(kFiles[which]);
+  return build(place, std::move(files), role, numbers, extras);
 }
 
 }  // namespace terrella
