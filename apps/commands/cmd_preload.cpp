@@ -37,6 +37,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
     "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
+    "  terrella preload wmts.json --route pass.geojson --radius 5000 --levels 0-15 -o pass.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "  terrella preload wmts.json --times 2026-06-01/2026-06-30/P1D --bbox 5,43,17,49 -o june.gpkg\n"
     "  terrella preload 'https://web.example/{z}/{x}/{y}.png' --projection web-mercator --levels 0-9 -o web.pmtiles\n"
@@ -421,7 +422,7 @@ void fit_jobs(PreloadCommand& command) {
 
 int run(PreloadCommand& command) {
   fit_jobs(command);
-  if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
+  if (command.area.levels && !command.remote.max_level) command.remote.max_level = command.area.levels->last;
   const StopSignals signals;
   std::optional<WaitLimit> limit(command.timeout_s);
   HttpOptions http = network_options(command);
