@@ -75,6 +75,7 @@ std::optional<NextScene> Viewer::run() {
     modes_.play().advance(Input::now());
     timeline_.advance();
     flights_.advance(Input::now());
+    keep_.advance();
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -113,6 +114,7 @@ void Viewer::handle_events() {
   for (OtherBodyFile& file : layers_.take_other_bodies()) question_.ask(std::move(file));
   if (layers_.take_open_wish()) open_.toggle();
   if (auto layer = layers_.take_list_wish()) list_.open(*std::move(layer));
+  if (auto layer = layers_.take_keep_wish()) keep_.open(*layer);
   follow_panels();
 }
 
