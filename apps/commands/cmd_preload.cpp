@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -63,6 +64,19 @@ std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
   return std::chrono::duration_cast<std::chrono::seconds>(*command.refresh_older_than_days * kDay);
 }
 
+/// Tells how long the hours of --between are still away, and says once that they are.
+std::function<std::chrono::seconds()> waiting_for(const DayHours& hours) {
+  return [hours, waits = false]() mutable {
+    const auto wait = wait_for(hours, since_midnight(hours, std::chrono::system_clock::now()));
+    if (wait.count() > 0 && !std::exchange(waits, true)) {
+      print_message("terrella preload: outside of --between {}; waiting {}\n", hours.text,
+                    duration_text(double(wait.count())));
+    }
+    if (wait.count() == 0) waits = false;
+    return wait;
+  };
+}
+
 PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
   PreloadOptions options;
   options.set = source.set;
@@ -70,6 +84,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
   options.tile_life = source.set.tile_life.value_or(options.tile_life);
   options.missing_life = source.set.missing_life.value_or(options.missing_life);
   options.expires = source.remote;
+  if (command.between) options.closed_for = waiting_for(*command.between);
   return options;
 }
 

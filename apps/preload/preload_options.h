@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/preload/day_hours.h"
 #include "apps/preload/preload_area.h"
 #include "geo/camera.h"
 #include "streaming/http/http_fetcher.h"
@@ -25,6 +26,7 @@ struct PreloadCommand {
   std::vector<std::string> times;  ///< instants to load (preload_instants()); empty: that of the source
   RemoteOptions remote;
   HttpOptions http;
+  std::optional<DayHours> between;  ///< when tiles may be requested; none: always
   double timeout_s = 600.0;  ///< longest wait for a server before the first tile is requested
   std::optional<double> refresh_older_than_days;
   std::size_t cache_size_mb = 0;
