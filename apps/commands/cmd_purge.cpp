@@ -74,7 +74,8 @@ Result<std::vector<std::string>> files_of_times(const std::string& cache, const 
   std::vector<std::string> there;
   for (const DatedFile& file : *files) there.push_back(file.time);
   if (there.empty()) return Error{pattern.string() + ": there is no such file; omit --times for a cache without times"};
-  const auto steps = TimeSteps::parse(there, std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now()));
+  const auto steps =
+      TimeSteps::parse(there, std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now()));
   if (!steps) return Error{pattern.string() + ": " + steps.error().message};
   const auto instants = preload_instants(times, *steps);
   if (!instants) return Error{cache + ": " + instants.error().message};
@@ -103,8 +104,9 @@ Result<PurgeSummary> purge_one(const PurgeCommand& command, const std::string& c
     const auto report = read_cache_report(cache, std::time(nullptr));
     if (!report) return report.error();
     if (report->source_key.starts_with(kRangesKey)) {
-      return Error{cache + ": holds parts of one file, not tiles of places; purge it by --older-than, --unused-for or "
-                           "--all"};
+      return Error{cache +
+                   ": holds parts of one file, not tiles of places; purge it by --older-than, --unused-for or "
+                   "--all"};
     }
     auto planned = plan_area(command.area, report->info, cache);
     if (!planned) return planned.error();
@@ -130,9 +132,8 @@ std::string text_of(const Purged& purged, bool dry_run) {
 
 nlohmann::ordered_json json_of(const Purged& purged) {
   const PurgeSummary& s = purged.summary;
-  return {{"cache", purged.cache},          {"tiles", s.tiles},
-          {"tile_bytes", s.tile_bytes},     {"absences", s.missing},
-          {"file_bytes", s.file_bytes},     {"file_bytes_before", s.file_bytes_before}};
+  return {{"cache", purged.cache}, {"tiles", s.tiles},           {"tile_bytes", s.tile_bytes},
+          {"absences", s.missing}, {"file_bytes", s.file_bytes}, {"file_bytes_before", s.file_bytes_before}};
 }
 
 std::string json_of(const std::vector<Purged>& all, bool dry_run) {

@@ -31,8 +31,9 @@ Result<DayHours> parse_day_hours(const std::string& text) {
   const auto first = long_enough ? parse_moment(span.substr(0, kDash)) : std::nullopt;
   const auto last = long_enough ? parse_moment(span.substr(kDash + 1)) : std::nullopt;
   if (!first || !last || *first == *last) {
-    return Error{in_quotes(text) + " is no part of a day; write FROM-TO, as 22:00-06:00 in local time or 22:00-06:00Z in "
-                                   "UTC"};
+    return Error{in_quotes(text) +
+                 " is no part of a day; write FROM-TO, as 22:00-06:00 in local time or 22:00-06:00Z in "
+                 "UTC"};
   }
   return DayHours{.first = *first, .last = *last, .utc = utc, .text = text};
 }

@@ -60,7 +60,8 @@ Status check_edges(const Region& region, const std::function<double(int)>& span_
   if (steps <= kMostSteps) return Done{};
   while (finest > min_level && region.edge_steps(span_deg_of(finest)) > kMostSteps) --finest;
   return Error{
-      fmt::format("--polygon, --route: the edges pass {:.1g} tiles of level {}, too many to plan; simplify the shapes, remove edges that lie "
+      fmt::format("--polygon, --route: the edges pass {:.1g} tiles of level {}, too many to plan; simplify the shapes, "
+                  "remove edges that lie "
                   "on each other, or end --levels at {}",
                   steps, levels.last, finest)};
 }
@@ -118,8 +119,8 @@ Result<LevelRange> levels_of(const PreloadArea& area, const TileGrid& grid, cons
   const LevelRange has{grid.min_level, grid.max_level};
   if (!area.levels) return has;
   if (area.levels->first < has.first || area.levels->last > has.last) {
-    return Error{fmt::format("--levels {}-{}: {} has levels {} to {}", area.levels->first, area.levels->last,
-                             name, has.first, has.last)};
+    return Error{fmt::format("--levels {}-{}: {} has levels {} to {}", area.levels->first, area.levels->last, name,
+                             has.first, has.last)};
   }
   return *area.levels;
 }

@@ -46,9 +46,7 @@ void add_network_options(CLI::App& app, PreloadCommand& command) {
       ->check(number_in(0.01, 1e6));
   app.add_option_function<std::string>(
          "--between",
-         [&command](const std::string& text) {
-           command.between = parsed_or_throw("--between", parse_day_hours(text));
-         },
+         [&command](const std::string& text) { command.between = parsed_or_throw("--between", parse_day_hours(text)); },
          "Request tiles only in this part of each day, and wait outside of it: local time, or UTC as 22:00-06:00Z")
       ->type_name("HH:MM-HH:MM[Z]");
   add_timeout_option(app, command.timeout_s, "Wait at most this many seconds for a server until the tiles are planned");

@@ -27,7 +27,7 @@ struct PreloadCommand {
   RemoteOptions remote;
   HttpOptions http;
   std::optional<DayHours> between;  ///< when tiles may be requested; none: always
-  double timeout_s = 600.0;  ///< longest wait for a server before the first tile is requested
+  double timeout_s = 600.0;         ///< longest wait for a server before the first tile is requested
   std::optional<double> refresh_older_than_days;
   std::size_t cache_size_mb = 0;
   std::string missing_file;

@@ -38,7 +38,8 @@ Result<std::unique_ptr<ProgramJob>> ProgramJob::start(std::vector<std::string> a
   if (Status emptied = result.empty() ? Status(Done{}) : write_file(result, {}); !emptied) return emptied.error();
   const int errors = open_for_child(log), output = result.empty() ? -1 : open_for_child(result);
   std::unique_ptr<ProgramJob> job(new ProgramJob(log));
-  const ChildProgram child{.program = "/proc/self/exe", .words = std::move(arguments), .output = output, .errors = errors};
+  const ChildProgram child{
+      .program = "/proc/self/exe", .words = std::move(arguments), .output = output, .errors = errors};
   const bool opened = errors >= 0 && (result.empty() || output >= 0);
   const int refused = opened ? start_child(child, job->pid_) : errno;
   for (const int file : {errors, output}) {

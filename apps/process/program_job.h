@@ -15,8 +15,8 @@ namespace terrella {
 /// Another process of the program that does a subcommand. thread: one
 class ProgramJob {
  public:
-  /// Starts `terrella` with these arguments. `log` gets the command and then its messages, `result` its output; an empty
-  /// path takes no output. The error is the reason alone.
+  /// Starts `terrella` with these arguments. `log` gets the command and then its messages, `result` its output; an
+  /// empty path takes no output. The error is the reason alone.
   [[nodiscard]] static Result<std::unique_ptr<ProgramJob>> start(std::vector<std::string> arguments,
                                                                  const std::filesystem::path& log,
                                                                  const std::filesystem::path& result = {});

@@ -210,7 +210,8 @@ void tidy_up(SqliteWriter& database) {
 }  // namespace
 
 Result<PurgeSummary> purge_cache(const fs::path& path, const PurgeWish& wish) {
-  const Error no_cache{path.string() + ": is not a cache; only caches that ‹preload› or the viewer filled can be purged"};
+  const Error no_cache{path.string() +
+                       ": is not a cache; only caches that ‹preload› or the viewer filled can be purged"};
   std::error_code failed;
   if (!fs::exists(path, failed)) return Error{path.string() + ": no such file; name a cache"};
   if (!fs::is_regular_file(path, failed) || !is_sqlite_file(path)) return no_cache;

@@ -29,11 +29,11 @@ struct PurgeWish {
 
 struct PurgeSummary {
   std::int64_t tiles = 0;
-  std::int64_t missing = 0;             ///< records of missing tiles
-  std::int64_t tile_bytes = 0;          ///< bytes of the tiles
-  std::uintmax_t file_bytes_before = 0; ///< size of the file
-  std::uintmax_t file_bytes = 0;        ///< size afterwards; the same for a dry run
-  bool stopped = false;                 ///< the rest is still there
+  std::int64_t missing = 0;              ///< records of missing tiles
+  std::int64_t tile_bytes = 0;           ///< bytes of the tiles
+  std::uintmax_t file_bytes_before = 0;  ///< size of the file
+  std::uintmax_t file_bytes = 0;         ///< size afterwards; the same for a dry run
+  bool stopped = false;                  ///< the rest is still there
 };
 
 /// Removes records from a cache, pinned tiles too, and gives the file's space back (incremental_vacuum). Other programs

@@ -79,8 +79,8 @@ class RouteReader {
     if (!rings) return rings.error();
     for (const MapRing& ring : *rings) points_ += ring.size();
     if (points_ > kMaxRegionPoints) {
-      return Error{fmt::format("more than {} points round it; simplify the route, or take it in parts",
-                               kMaxRegionPoints)};
+      return Error{
+          fmt::format("more than {} points round it; simplify the route, or take it in parts", kMaxRegionPoints)};
     }
     region_.add_polygon(*rings);
     return Done{};
@@ -100,9 +100,10 @@ Result<Region> parse_geojson_route(std::string_view text, const std::string& whe
   const auto object = parse_geojson(text, where);
   if (!object) return object.error();
   if (radius_m > kLargestRadius * ellipsoid.a_m()) {
-    return Error{fmt::format("{}: a radius of {} m is more than the {:.0f} m that a route can have on this body; a box "
-                             "or a polygon covers more",
-                             where, radius_m, kLargestRadius * ellipsoid.a_m())};
+    return Error{
+        fmt::format("{}: a radius of {} m is more than the {:.0f} m that a route can have on this body; a box "
+                    "or a polygon covers more",
+                    where, radius_m, kLargestRadius * ellipsoid.a_m())};
   }
   RouteReader reader(radius_m, ellipsoid);
   const auto take = [&](const nlohmann::json& geometry) { return reader.add_geometry(geometry); };

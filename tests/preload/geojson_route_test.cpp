@@ -85,8 +85,8 @@ double distance_m(const MapRect& rect, const std::vector<Dense>& way) {
   for (int n = 0; n <= kSide; ++n) {
     const double lon = std::lerp(rect.west_deg, rect.east_deg, double(n) / kSide);
     const double lat = std::lerp(rect.south_deg, rect.north_deg, double(n) / kSide);
-    for (const Stop& place : {Stop{lon, rect.south_deg}, Stop{lon, rect.north_deg}, Stop{rect.west_deg, lat},
-                              Stop{rect.east_deg, lat}}) {
+    for (const Stop& place :
+         {Stop{lon, rect.south_deg}, Stop{lon, rect.north_deg}, Stop{rect.west_deg, lat}, Stop{rect.east_deg, lat}}) {
       const glm::dvec3 at = ecef(place);
       for (const Dense& one : way) {
         const double chord = glm::distance(at, one.at);

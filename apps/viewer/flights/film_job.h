@@ -19,8 +19,8 @@ class FilmJob {
   [[nodiscard]] static Result<std::unique_ptr<FilmJob>> start(const std::filesystem::path& folder,
                                                               std::vector<std::string> arguments);
 
-  [[nodiscard]] int percent();           ///< part that is done, 0 to 100 in steps of 10
-  void stop() const { job_->stop(); }    ///< asks the process to end after its frame
+  [[nodiscard]] int percent();         ///< part that is done, 0 to 100 in steps of 10
+  void stop() const { job_->stop(); }  ///< asks the process to end after its frame
   [[nodiscard]] bool is_stopped() const { return job_->is_stopped(); }
   [[nodiscard]] bool has_ended() const { return job_->has_ended(); }
   /// Waits for the end, and tells it as a message to the user. An error is the last message of the process.

@@ -111,8 +111,8 @@ bool KeepOffline::take(const LayerToKeep& layer) {
 
 // The levels at first are those of a few tiles.
 void KeepOffline::take_view() {
-  const auto box = view_box(context_.navigator.camera(), context_.globe.options().body.ellipsoid,
-                            context_.window.framebuffer());
+  const auto box =
+      view_box(context_.navigator.camera(), context_.globe.options().body.ellipsoid, context_.window.framebuffer());
   if (!box) return say("The view shows no part of the globe");
   box_ = *box;
   const TileGrid& grid = stored_grid(layer_.info);
@@ -132,17 +132,16 @@ std::int64_t KeepOffline::tiles_to(int last) const {
 }
 
 std::vector<std::string> KeepOffline::arguments() const {
-  std::vector<std::string> words = {
-      "preload",
-      "--task",
-      (folder_ / kTask).string(),
-      fmt::format("--bbox={:.7f},{:.7f},{:.7f},{:.7f}", box_.west.deg(), box_.south.deg(), box_.east.deg(),
-                  box_.north.deg()),
-      "--levels",
-      fmt::format("{}-{}", first_, last_),
-      "--json",
-      "-o",
-      cache_.string()};
+  std::vector<std::string> words = {"preload",
+                                    "--task",
+                                    (folder_ / kTask).string(),
+                                    fmt::format("--bbox={:.7f},{:.7f},{:.7f},{:.7f}", box_.west.deg(), box_.south.deg(),
+                                                box_.east.deg(), box_.north.deg()),
+                                    "--levels",
+                                    fmt::format("{}-{}", first_, last_),
+                                    "--json",
+                                    "-o",
+                                    cache_.string()};
   if (cache_size_mb_ > 0) words.insert(words.end(), {"--cache-size", std::to_string(cache_size_mb_)});
   return words;
 }
@@ -152,7 +151,8 @@ void KeepOffline::estimate() {
   estimating_.reset();
   estimate_.reset();
   if (const std::int64_t tiles = tiles_to(last_); tiles > kMostEstimated) {
-    estimate_ = {.tiles = tiles, .fault = "that is too much; choose fewer levels, or go closer and take the view again"};
+    estimate_ = {.tiles = tiles,
+                 .fault = "that is too much; choose fewer levels, or go closer and take the view again"};
     return;
   }
   std::vector<std::string> words = arguments();
@@ -241,7 +241,8 @@ void KeepOffline::draw_open(float foot) {
 std::string KeepOffline::estimate_text() const {
   if (!estimate_) return "Counting tiles…";
   std::string text;
-  if (estimate_->tiles > 0) text = fmt::format("{} tiles, {} of them there already", estimate_->tiles, estimate_->there);
+  if (estimate_->tiles > 0)
+    text = fmt::format("{} tiles, {} of them there already", estimate_->tiles, estimate_->there);
   if (estimate_->bytes) text += fmt::format("; about {} to come", bytes_text(*estimate_->bytes));
   if (!estimate_->fault.empty()) text += (text.empty() ? "" : "; ") + estimate_->fault;
   return text;

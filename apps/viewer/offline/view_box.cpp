@@ -44,8 +44,9 @@ std::optional<GeoRect> view_box(const Camera& camera, const Ellipsoid& ellipsoid
   bool horizon = false;
   for (int row = 0; row <= kSamples; ++row) {
     for (int column = 0; column <= kSamples; ++column) {
-      const auto place = pick(view, ellipsoid, {double(viewport.width_px) * column / kSamples,
-                                                double(viewport.height_px) * row / kSamples});
+      const auto place =
+          pick(view, ellipsoid,
+               {double(viewport.width_px) * column / kSamples, double(viewport.height_px) * row / kSamples});
       horizon = horizon || !place;
       if (!place) continue;
       if (!first_lon) first_lon = place->lon.deg();
