@@ -16,6 +16,7 @@
 
 #include "apps/open_scene/dated_files.h"
 #include "apps/open_scene/options/option_checks.h"
+#include "apps/open_scene/options/remote_set_options.h"
 #include "apps/preload/preload_area.h"
 #include "apps/preload/preload_progress.h"
 #include "apps/preload/preload_times.h"
@@ -121,7 +122,7 @@ Result<PurgeSummary> purge_one(const PurgeCommand& command, const std::string& c
   return purge_cache(cache, wish);
 }
 
-std::string text_of(const Purged& purged, bool dry_run) {
+std::string purge_text(const Purged& purged, bool dry_run) {
   const PurgeSummary& s = purged.summary;
   const std::string what = fmt::format("{} tiles ({}) and {} records of missing tiles", s.tiles,
                                        bytes_text(double(s.tile_bytes)), s.missing);
@@ -130,19 +131,19 @@ std::string text_of(const Purged& purged, bool dry_run) {
                      bytes_text(double(s.file_bytes)), bytes_text(double(s.file_bytes_before)));
 }
 
-nlohmann::ordered_json json_of(const Purged& purged) {
+nlohmann::ordered_json purge_json(const Purged& purged) {
   const PurgeSummary& s = purged.summary;
   return {{"cache", purged.cache}, {"tiles", s.tiles},           {"tile_bytes", s.tile_bytes},
           {"absences", s.missing}, {"file_bytes", s.file_bytes}, {"file_bytes_before", s.file_bytes_before}};
 }
 
-std::string json_of(const std::vector<Purged>& all, bool dry_run) {
+std::string purge_json(const std::vector<Purged>& all, bool dry_run) {
   nlohmann::ordered_json result{{"tiles", 0}, {"absences", 0}, {"dry_run", dry_run}};
   std::int64_t tiles = 0, missing = 0;
   for (const Purged& one : all) {
     tiles += one.summary.tiles;
     missing += one.summary.missing;
-    result["caches"].push_back(json_of(one));
+    result["caches"].push_back(purge_json(one));
   }
   result["tiles"] = tiles;
   result["absences"] = missing;
@@ -169,14 +170,14 @@ int run_purge(const PurgeCommand& command) {
       break;
     }
     all.push_back({cache, *summary});
-    if (!command.json) print_result("{}", text_of(all.back(), command.dry_run));
+    if (!command.json) print_result("{}", purge_text(all.back(), command.dry_run));
     if (summary->stopped) {
       print_message("terrella purge: stopped in {}; the same command goes on where this one ended\n", cache);
       code = kDoneInPart;
       break;
     }
   }
-  if (command.json && !all.empty()) print_result("{}", json_of(all, command.dry_run));
+  if (command.json && !all.empty()) print_result("{}", purge_json(all, command.dry_run));
   return code;
 }
 

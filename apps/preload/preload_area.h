@@ -25,7 +25,7 @@ struct PreloadArea {
   std::vector<GeoRect> boxes;
   std::vector<std::string> polygons;  ///< GeoJSON files
   std::vector<std::string> routes;    ///< GeoJSON files
-  double radius_m = 0.0;              ///< of the routes; 0: not given
+  double radius_m = 0.0;              ///< distance from the routes; 0: not given
   [[nodiscard]] bool is_planet() const { return boxes.empty() && polygons.empty() && routes.empty(); }
 };
 

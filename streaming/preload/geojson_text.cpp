@@ -17,7 +17,7 @@ namespace {
 
 using TakeGeometry = std::function<Status(const json&)>;
 
-Status take_geometry(const json& geometry, const TakeGeometry& take) {
+Status take_parts(const json& geometry, const TakeGeometry& take) {
   return geojson_type(geometry) == "GeometryCollection" ? for_each_entry(geometry, "geometries", take) : take(geometry);
 }
 
@@ -25,7 +25,7 @@ Status take_feature(const json& feature, const TakeGeometry& take) {
   if (geojson_type(feature) != "Feature") return Error{"not a Feature"};
   const auto geometry = feature.find("geometry");
   if (geometry == feature.end()) return Error{"a Feature without \"geometry\""};
-  return geometry->is_null() ? Status(Done{}) : take_geometry(*geometry, take);
+  return geometry->is_null() ? Status(Done{}) : take_parts(*geometry, take);
 }
 
 Status take_features(const json& object, const TakeGeometry& take) {
@@ -45,7 +45,7 @@ Status take_features(const json& object, const TakeGeometry& take) {
 Status for_each_geometry(const json& document, const TakeGeometry& take) {
   const std::string type = geojson_type(document);
   if (type == "FeatureCollection") return take_features(document, take);
-  return type == "Feature" ? take_feature(document, take) : take_geometry(document, take);
+  return type == "Feature" ? take_feature(document, take) : take_parts(document, take);
 }
 
 Status for_each_entry(const json& object, const char* list, const TakeGeometry& take) {

@@ -114,7 +114,7 @@ void expect_exact(const TileGrid& grid, const Trip& trip) {
   ASSERT_TRUE(region) << region.error().message;
   const auto tiles = set_of(*plan_region(grid, earth().ellipsoid, *region, trip.level, trip.level));
   const std::vector<Dense> way = dense(trip.way, trip.radius_m / 40.0);
-  const double beside_m = 0.004 * trip.radius_m + 50.0;  // of the region, and of the samples
+  const double beside_m = 0.004 * trip.radius_m + 50.0;  // errors of the region and of the samples
   std::int64_t inside = 0;
   const std::int64_t side = std::int64_t{1} << trip.level;
   const std::int64_t columns = grid.root_span_deg == 180.0 ? 2 * side : side;

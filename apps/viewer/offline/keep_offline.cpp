@@ -30,7 +30,7 @@ constexpr float kKeepWidth = 23.0F;                   // in text heights
 constexpr std::int64_t kFewTiles = 256;               // chosen at first
 constexpr std::int64_t kMostEstimated = 100'000'000;  // the estimate looks for each in the cache
 constexpr std::size_t kMostAnswer = 1UL << 20;        // bytes
-constexpr const char *kTask = "source.json", *kLog = "preload.log", *kAnswer = "answer.json";
+constexpr const char *kKeepTask = "source.json", *kKeepLog = "preload.log", *kKeepAnswer = "answer.json";
 
 /// The grid of the tiles on the server.
 const TileGrid& stored_grid(const TileSetInfo& info) { return info.made_of ? *info.made_of : info.grid; }
@@ -98,7 +98,7 @@ bool KeepOffline::take(const LayerToKeep& layer) {
   const std::string address = source.address.with_secrets();
   const bool is_template = address.find("{z}") != std::string::npos;
   if (is_template && !source.remote.max_level) source.remote.max_level = stored_grid(layer.info).max_level;
-  if (Status written = write_kept_text(folder_ / kTask, preload_task_text(source)); !written) {
+  if (Status written = write_kept_text(folder_ / kKeepTask, preload_task_text(source)); !written) {
     say(written.error());
     return false;
   }
@@ -134,7 +134,7 @@ std::int64_t KeepOffline::tiles_to(int last) const {
 std::vector<std::string> KeepOffline::arguments() const {
   std::vector<std::string> words = {"preload",
                                     "--task",
-                                    (folder_ / kTask).string(),
+                                    (folder_ / kKeepTask).string(),
                                     fmt::format("--bbox={:.7f},{:.7f},{:.7f},{:.7f}", box_.west.deg(), box_.south.deg(),
                                                 box_.east.deg(), box_.north.deg()),
                                     "--levels",
@@ -157,7 +157,7 @@ void KeepOffline::estimate() {
   }
   std::vector<std::string> words = arguments();
   words.emplace_back("--dry-run");
-  auto job = ProgramJob::start(std::move(words), folder_ / kLog, folder_ / kAnswer);
+  auto job = ProgramJob::start(std::move(words), folder_ / kKeepLog, folder_ / kKeepAnswer);
   if (job) estimating_ = *std::move(job);
   if (!job) estimate_ = {.fault = job.error().message};
 }
@@ -165,7 +165,7 @@ void KeepOffline::estimate() {
 void KeepOffline::take_estimate() {
   if (!estimating_ || !estimating_->has_ended()) return;
   Estimate estimate;
-  const nlohmann::json answer = answer_in(folder_ / kAnswer);
+  const nlohmann::json answer = answer_in(folder_ / kKeepAnswer);
   if (estimating_->exit_code() == kDone && answer.is_object()) {
     estimate.tiles = answer.value("tiles", std::int64_t{0});
     estimate.there = answer.value("there", std::int64_t{0});
@@ -179,7 +179,7 @@ void KeepOffline::take_estimate() {
 }
 
 void KeepOffline::begin() {
-  auto job = ProgramJob::start(arguments(), folder_ / kLog, folder_ / kAnswer);
+  auto job = ProgramJob::start(arguments(), folder_ / kKeepLog, folder_ / kKeepAnswer);
   if (!job) return say(Error{"Nothing can be kept: " + job.error().message});
   paused_ = cancelled_ = false;
   end_.clear();
@@ -194,7 +194,7 @@ void KeepOffline::take_work() {
   if (paused_ && code != kDone) return;
   paused_ = false;
   part_ = 0.0;
-  const nlohmann::json answer = answer_in(folder_ / kAnswer);
+  const nlohmann::json answer = answer_in(folder_ / kKeepAnswer);
   if (cancelled_) {
     end_ = "Cancelled; what came is kept.";
   } else if (code == kDone && answer.is_object()) {

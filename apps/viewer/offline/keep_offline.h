@@ -45,8 +45,8 @@ class KeepOffline : public Panel {
  private:
   struct Estimate {
     std::int64_t tiles = 0, there = 0;
-    std::optional<double> bytes;
-    std::string fault;  ///< the preload would be refused
+    std::optional<double> bytes{};
+    std::string fault{};  ///< the preload would be refused
   };
   void draw_open(float foot) override;
   void draw_choice();
@@ -65,7 +65,7 @@ class KeepOffline : public Panel {
   const bool has_cache_;
   const std::size_t cache_size_mb_;
   LayerToKeep layer_;
-  std::filesystem::path folder_;  ///< of the processes' files, for this user alone
+  std::filesystem::path folder_;  ///< files of the processes, for this user alone
   std::filesystem::path cache_;
   GeoRect box_{};
   int first_ = 0, last_ = 0;  ///< chosen levels

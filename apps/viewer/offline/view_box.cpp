@@ -6,11 +6,11 @@
 namespace terrella {
 namespace {
 
-constexpr int kSamples = 24;      // places along each side of the picture
-constexpr double kMargin = 0.03;  // of the box, on each side
+constexpr int kViewSamples = 24;      // places along each side of the picture
+constexpr double kViewMargin = 0.03;  // part of the box, on each side
 
 /// Box with longitudes continued over ±180°, and all of them if it reaches a pole.
-GeoRect box_of(double west, double south, double east, double north) {
+GeoRect box_on_planet(double west, double south, double east, double north) {
   const bool round = south <= -90.0 || north >= 90.0 || east - west >= 360.0;
   return {.west = Angle::degrees(round ? -180.0 : std::remainder(west, 360.0)),
           .south = Angle::degrees(std::max(south, -90.0)),
@@ -24,7 +24,7 @@ GeoRect box_in_horizon(const Geodetic& eye, const Ellipsoid& ellipsoid) {
   const double radius_deg = Angle::radians(radius).deg(), lat = eye.lat.deg(), lon = eye.lon.deg();
   const double reach = std::sin(radius) / std::cos(eye.lat.rad());
   const double side_deg = std::abs(lat) + radius_deg >= 90.0 ? 180.0 : Angle::radians(std::asin(reach)).deg();
-  return box_of(lon - side_deg, lat - radius_deg, lon + side_deg, lat + radius_deg);
+  return box_on_planet(lon - side_deg, lat - radius_deg, lon + side_deg, lat + radius_deg);
 }
 
 bool shows_pole(const View& view, const Ellipsoid& ellipsoid, double lat_deg) {
@@ -42,11 +42,11 @@ std::optional<GeoRect> view_box(const Camera& camera, const Ellipsoid& ellipsoid
   std::optional<double> first_lon;
   double west = 1e9, south = 90.0, east = -1e9, north = -90.0;
   bool horizon = false;
-  for (int row = 0; row <= kSamples; ++row) {
-    for (int column = 0; column <= kSamples; ++column) {
+  for (int row = 0; row <= kViewSamples; ++row) {
+    for (int column = 0; column <= kViewSamples; ++column) {
       const auto place =
           pick(view, ellipsoid,
-               {double(viewport.width_px) * column / kSamples, double(viewport.height_px) * row / kSamples});
+               {double(viewport.width_px) * column / kViewSamples, double(viewport.height_px) * row / kViewSamples});
       horizon = horizon || !place;
       if (!place) continue;
       if (!first_lon) first_lon = place->lon.deg();
@@ -61,8 +61,8 @@ std::optional<GeoRect> view_box(const Camera& camera, const Ellipsoid& ellipsoid
   if (horizon) return box_in_horizon(camera.eye, ellipsoid);
   if (shows_pole(view, ellipsoid, 90.0)) north = 90.0;
   if (shows_pole(view, ellipsoid, -90.0)) south = -90.0;
-  const double more_lon = kMargin * (east - west), more_lat = kMargin * (north - south);
-  return box_of(west - more_lon, south - more_lat, east + more_lon, north + more_lat);
+  const double more_lon = kViewMargin * (east - west), more_lat = kViewMargin * (north - south);
+  return box_on_planet(west - more_lon, south - more_lat, east + more_lon, north + more_lat);
 }
 
 }  // namespace terrella
