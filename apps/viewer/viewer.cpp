@@ -268,8 +268,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 15> newest{&question_,  &pictures_, &profile_, &timeline_,  &search_, &open_,   &projects_, &body_,
-                                &catalogue_, &list_,     &flights_, &bookmarks_, &draw_,   &layers_, &modes_};
+  std::array<Panel*, 16> newest{&keep_, &question_,  &pictures_, &profile_, &timeline_,  &search_, &open_,   &projects_,
+                                &body_, &catalogue_, &list_,     &flights_, &bookmarks_, &draw_,   &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

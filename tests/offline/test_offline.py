@@ -18,8 +18,8 @@ import servers  # noqa: E402
 
 MAX_LEVEL = 7
 FINE = 5  # levels from here on are held back
-ROW, KEEP = (90, 65), (40, 158)  # in the panel of layers
-VIEW, START, PAUSE, CANCEL = (60, 66), (40, 130), (40, 80), (100, 80)  # in the panel
+ROW, KEEP = (90, 65), (166, 194)  # in the panel of layers
+VIEW, START, PAUSE, CANCEL = (60, 78), (32, 165), (40, 84), (100, 84)  # in the panel
 
 
 class Handler(http.server.BaseHTTPRequestHandler):

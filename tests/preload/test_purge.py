@@ -96,8 +96,8 @@ class Purge(PurgeTest):
         self.assertEqual(self.purge_as_said("--unused-for", "0")["tiles"], 0)
         self.run_program("preload", self.server.template, *self.words, "-o", self.cache, "--release")
         self.set_times("used", _3=9)
-        self.assertEqual(self.purge_as_said("--unused-for", "7")["tiles"], 2 << 6)
-        self.assertEqual(self.purge_as_said("--all")["tiles"], len(servers.places(3)) + 3 * (2 << 8) // 4)
+        self.assertEqual(self.purge_as_said("--unused-for", "7")["tiles"], (2 << 6) + 3 * (2 << 8) // 4)
+        self.assertEqual(self.purge_as_said("--all")["tiles"], len(servers.places(3)))
         self.assertEqual(self.stored(), {})
 
     def test_records_of_missing_tiles_go_too(self):
@@ -203,7 +203,8 @@ class Hours(PurgeTest):
         self.assertEqual(self.server.requests(), [])
         # Within the hours.
         summary, said = self.preload(self.server.template, *self.words, "--between", f"{end}-{begin}Z")
-        self.assertEqual((summary["stored"], said), (ALL, ""))
+        self.assertEqual(summary["stored"], ALL)
+        self.assertNotIn("outside", said)
 
     def begin(self, *words):
         return subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE,

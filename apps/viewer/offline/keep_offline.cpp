@@ -238,14 +238,13 @@ void KeepOffline::draw_open(float foot) {
   ImGui::End();
 }
 
-std::string KeepOffline::estimate_text() const {
-  if (!estimate_) return "Counting tiles…";
-  std::string text;
-  if (estimate_->tiles > 0)
-    text = fmt::format("{} tiles, {} of them there already", estimate_->tiles, estimate_->there);
-  if (estimate_->bytes) text += fmt::format("; about {} to come", bytes_text(*estimate_->bytes));
-  if (!estimate_->fault.empty()) text += (text.empty() ? "" : "; ") + estimate_->fault;
-  return text;
+void KeepOffline::draw_estimate() const {
+  if (!estimate_) return write_wrapped("Counting tiles…");
+  if (estimate_->tiles > 0) {
+    write_wrapped(fmt::format("{} tiles, {} of them there already", estimate_->tiles, estimate_->there));
+  }
+  if (!estimate_->fault.empty()) return write_wrapped("Not possible: " + estimate_->fault);
+  write_wrapped(estimate_->bytes ? fmt::format("About {} to come", bytes_text(*estimate_->bytes)) : "Size unknown");
 }
 
 void KeepOffline::draw_choice() {
@@ -265,7 +264,7 @@ void KeepOffline::draw_choice() {
   }
   tip("First and last level of the server's tiles. Each finer level has up to four times as many.");
   if (!estimate_ && !estimating_ && !ImGui::IsAnyItemActive()) estimate();
-  write_wrapped(estimate_text());
+  draw_estimate();
   if (!estimate_ || !estimate_->fault.empty()) return;
   if (ImGui::Button("Start") || entered()) begin();
   tip("Stores the tiles in the session's cache, beside the window's work. They stay there whatever else is looked at.");

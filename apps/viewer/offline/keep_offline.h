@@ -59,7 +59,7 @@ class KeepOffline : public Panel {
   void begin();
   void take_work();
   [[nodiscard]] std::vector<std::string> arguments() const;
-  [[nodiscard]] std::string estimate_text() const;
+  void draw_estimate() const;
   [[nodiscard]] double part() const;
 
   const bool has_cache_;
