@@ -101,7 +101,7 @@ class Offline(WindowTest):
         self.click_in("Keep for offline use", PAUSE)
         wait_until("the pause", lambda: not self.children())
         self.server.gate.set()
-        self.viewer.settled()
+        self.viewer.settled(still_s=1.2)  # the window looks for the end of the process once a second
         self.viewer.save_grab(self.folder / "paused.png")
         asked = len(self.server.asked)
         self.viewer.move(500, 300)

@@ -104,7 +104,6 @@ bool KeepOffline::take(const LayerToKeep& layer) {
   }
   layer_ = layer;
   cache_ = *cache;
-  end_.clear();
   take_view();
   return true;
 }
@@ -115,6 +114,7 @@ void KeepOffline::take_view() {
       view_box(context_.navigator.camera(), context_.globe.options().body.ellipsoid, context_.window.framebuffer());
   if (!box) return say("The view shows no part of the globe");
   box_ = *box;
+  end_.clear();
   const TileGrid& grid = stored_grid(layer_.info);
   first_ = last_ = grid.min_level;
   while (last_ < grid.max_level && tiles_to(last_ + 1) <= kFewTiles) ++last_;
@@ -272,11 +272,11 @@ void KeepOffline::draw_choice() {
 
 void KeepOffline::draw_work() {
   ImGui::ProgressBar(float(part()), {-1.0F, 0.0F});
-  const bool ends = work_ && work_->is_stopped();
+  if (work_ && work_->is_stopped()) return write_wrapped("It ends with the requests on their way.");
   if (paused_ && !work_) {
     if (ImGui::Button("Resume###pause") || entered()) begin();
     tip("Goes on where it was paused.");
-  } else if ((ImGui::Button("Pause###pause") || entered()) && !ends) {
+  } else if (ImGui::Button("Pause###pause") || entered()) {
     paused_ = true;
     work_->stop();
   }
@@ -285,6 +285,7 @@ void KeepOffline::draw_work() {
     cancelled_ = true;
     if (work_) work_->stop();
     if (!work_) end_ = "Cancelled; what came is kept.";
+    if (!work_) estimate_.reset();
     paused_ = false;
   }
   tip("Stops; the tiles that came stay in the cache.");
