@@ -50,7 +50,7 @@ std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic
 
 std::vector<Geodetic> ring_around_way(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to,
                                       double radius_m) {
-  constexpr int kArcs = 45;                // pieces of half a circle; their chords stay beyond the radius
+  constexpr int kArcs = 24;                // pieces of half a circle; their chords stay beyond the radius
   constexpr double kStepsARadius = 320.0;  // the ring's sides are no geodesics
   const GeographicLib::GeodesicExact geodesics = geodesics_of(ellipsoid);
   const auto line = geodesics.InverseLine(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg());

@@ -25,7 +25,7 @@ namespace terrella {
                                                     const Geodetic& to, int count);
 
 /// Returns a ring round all places within `radius_m` of the shortest way between two places, in order; a circle if the
-/// places are one. The ring and the edges between its places lie at radius_m to 1.001 · radius_m from the way. Way and
+/// places are one. The ring and the edges between its places lie at radius_m to 1.003 · radius_m from the way. Way and
 /// radius are at most a quarter of the equatorial radius.
 [[nodiscard]] std::vector<Geodetic> ring_around_way(const Ellipsoid& ellipsoid, const Geodetic& from,
                                                     const Geodetic& to, double radius_m);

@@ -20,7 +20,7 @@ namespace {
 constexpr double kLongestPiece = 0.25;
 constexpr double kLargestRadius = 0.2;
 /// Positions nearer than this part of the radius to the last one add nothing to the region; it is wider by as much.
-constexpr double kNearPart = 1.0e-3;
+constexpr double kNearPart = 4.0e-3;
 
 /// Adds the places near some lines to a region, one polygon for each piece of a leg.
 class RouteReader {
