@@ -73,6 +73,7 @@ Result<std::vector<std::string>> files_of_times(const std::string& cache, const 
   const auto files = find_dated_files(pattern);
   if (!files) return files.error();
   std::vector<std::string> there;
+  there.reserve(files->size());
   for (const DatedFile& file : *files) there.push_back(file.time);
   if (there.empty()) return Error{pattern.string() + ": there is no such file; omit --times for a cache without times"};
   const auto steps =

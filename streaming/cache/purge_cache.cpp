@@ -183,7 +183,7 @@ class Purge {
       const WriteResult<std::int64_t> pages = database_.integer("PRAGMA freelist_count");
       if (!pages) return pages.error();
       if (*pages == 0) return Done{};
-      const WriteStatus freed = database_.run(fmt::format("PRAGMA incremental_vacuum({})", kPagesAtATime));
+      WriteStatus freed = database_.run(fmt::format("PRAGMA incremental_vacuum({})", kPagesAtATime));
       if (!freed) return freed;
       if (const auto left = database_.integer("PRAGMA freelist_count"); !left || *left >= *pages) return Done{};
     }

@@ -53,7 +53,7 @@ class RouteReader {
       const double way_m = from ? geodesic_m(ellipsoid_, *from, to) : 0.0;
       if (from && way_m < kNearPart * radius_m_) continue;
       if (from) {
-        if (const Status added = add_leg(*from, to, way_m); !added) return added;
+        if (Status added = add_leg(*from, to, way_m); !added) return added;
         alone = false;
       }
       from = to;
@@ -65,19 +65,19 @@ class RouteReader {
     const int pieces = static_cast<int>(std::ceil(way_m / (kLongestPiece * ellipsoid_.a_m())));
     const std::vector<Geodetic> ends = geodesic_places(ellipsoid_, from, to, pieces + 1);
     for (std::size_t k = 1; k < ends.size(); ++k) {
-      if (const Status added = add_piece(ends[k - 1], ends[k]); !added) return added;
+      if (Status added = add_piece(ends[k - 1], ends[k]); !added) return added;
     }
     return Done{};
   }
 
   Status add_piece(const Geodetic& from, const Geodetic& to) {
+    const std::vector<Geodetic> ring = ring_around_way(ellipsoid_, from, to, around_m_);
     std::vector<MapPoint> places;
-    for (const Geodetic& place : ring_around_way(ellipsoid_, from, to, around_m_)) {
-      places.push_back({place.lon.deg(), place.lat.deg()});
-    }
+    places.reserve(ring.size());
+    for (const Geodetic& place : ring) places.push_back({place.lon.deg(), place.lat.deg()});
     const auto rings = rings_of(places);
     if (!rings) return rings.error();
-    for (const MapRing& ring : *rings) points_ += ring.size();
+    for (const MapRing& part : *rings) points_ += part.size();
     if (points_ > kMaxRegionPoints) {
       return Error{
           fmt::format("more than {} points round it; simplify the route, or take it in parts", kMaxRegionPoints)};

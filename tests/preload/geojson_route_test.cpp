@@ -176,8 +176,10 @@ TEST(GeojsonRoute, HasThemInWebMercator) {
 }
 
 TEST(GeojsonRoute, DenseLinesAreThoseOfTheirEnds) {
+  const std::vector<Dense> places = dense({{5.0, 44.0}, {16.0, 47.5}}, 20.0);
   Way dense_way;
-  for (const Dense& one : dense({{5.0, 44.0}, {16.0, 47.5}}, 20.0)) dense_way.push_back(one.place);
+  dense_way.reserve(places.size());
+  for (const Dense& one : places) dense_way.push_back(one.place);
   ASSERT_GT(dense_way.size(), 40'000U);
   TileGrid grid;
   grid.max_level = 9;
