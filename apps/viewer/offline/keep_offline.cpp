@@ -158,8 +158,11 @@ void KeepOffline::estimate() {
   std::vector<std::string> words = arguments();
   words.emplace_back("--dry-run");
   auto job = ProgramJob::start(std::move(words), folder_ / kKeepLog, folder_ / kKeepAnswer);
-  if (job) estimating_ = *std::move(job);
-  if (!job) estimate_ = {.fault = job.error().message};
+  if (!job) {
+    estimate_ = {.fault = job.error().message};
+    return;
+  }
+  estimating_ = *std::move(job);
 }
 
 void KeepOffline::take_estimate() {
