@@ -209,6 +209,22 @@ class Hours(PurgeTest):
         self.assertEqual(summary["stored"], ALL)
         self.assertNotIn("outside", said)
 
+    def test_a_cache_in_use_is_purged_and_shrinks(self):
+        self.preload(self.server.template, *self.words, "--bbox=0,0,90,45")
+        whole = self.cache.stat().st_size
+        later = time.gmtime(time.time() + 3 * 3600)
+        process = self.begin("preload", self.server.template, *self.words, "-o", self.cache, "--between",
+                             f"{later.tm_hour:02}:00-{later.tm_hour:02}:30Z")
+        self.assertIn("waiting", process.stderr.readline())  # and has the cache open
+        done = self.purge("--levels", "5")
+        self.assertGreater(done["tiles"], 100)
+        self.assertLess(self.cache.stat().st_size, whole - 0.9 * done["caches"][0]["tile_bytes"])
+        process.terminate()
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, DONE_IN_PART)
+        self.assert_sound()
+        self.assertEqual([path.name for path in self.folder.glob("cache.gpkg-*")], [])
+
     def begin(self, *words):
         return subprocess.Popen([PROGRAM, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True)
