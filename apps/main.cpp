@@ -35,10 +35,11 @@ int run_program(int argc, char** argv) {
   add_preload_command(app, exit_code);
   add_info_command(app, exit_code);
   add_merge_command(app, exit_code);
+  add_purge_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
-  for (const char* command : {"cut", "preload"}) add_task_option(*app.get_subcommand(command));
+  for (const char* command : {"cut", "preload", "purge"}) add_task_option(*app.get_subcommand(command));
   return run_command_line(app, std::vector<std::string>(argv + 1, argv + argc), exit_code);
 }
 

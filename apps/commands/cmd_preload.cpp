@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -37,6 +38,7 @@ constexpr const char* kPreloadExamples =
     "  terrella preload 'https://tiles.example/{z}/{x}/{y}.jpg' --levels 0-8 --bbox 5,43,17,49 --dry-run -o alps.gpkg\n"
     "  terrella preload wmts.json --polygon alps.geojson --rate 20 -o alps.gpkg\n"
     "  terrella preload https://host/mosaic.tif --bbox 5,43,17,49 -o alps.gpkg\n"
+    "  terrella preload wmts.json --route pass.geojson --radius 5000 --levels 0-15 -o pass.gpkg\n"
     "  terrella preload wmts.json --flight zurich_rome.geojson --size 1920x1080 -o trip.gpkg\n"
     "  terrella preload wmts.json --times 2026-06-01/2026-06-30/P1D --bbox 5,43,17,49 -o june.gpkg\n"
     "  terrella preload 'https://web.example/{z}/{x}/{y}.png' --projection web-mercator --levels 0-9 -o web.pmtiles\n"
@@ -62,6 +64,19 @@ std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
   return std::chrono::duration_cast<std::chrono::seconds>(*command.refresh_older_than_days * kDay);
 }
 
+/// Tells how long the hours of --between are still away, and says once that they are.
+std::function<std::chrono::seconds()> waiting_for(const DayHours& hours) {
+  return [hours, waits = false]() mutable {
+    const auto wait = wait_for(hours, since_midnight(hours, std::chrono::system_clock::now()));
+    if (wait.count() > 0 && !std::exchange(waits, true)) {
+      print_message("terrella preload: outside of --between {}; waiting {}\n", hours.text,
+                    duration_text(double(wait.count())));
+    }
+    if (wait.count() == 0) waits = false;
+    return wait;
+  };
+}
+
 PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
   PreloadOptions options;
   options.set = source.set;
@@ -69,6 +84,7 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
   options.tile_life = source.set.tile_life.value_or(options.tile_life);
   options.missing_life = source.set.missing_life.value_or(options.missing_life);
   options.expires = source.remote;
+  if (command.between) options.closed_for = waiting_for(*command.between);
   return options;
 }
 
@@ -421,7 +437,7 @@ void fit_jobs(PreloadCommand& command) {
 
 int run(PreloadCommand& command) {
   fit_jobs(command);
-  if (command.levels && !command.remote.max_level) command.remote.max_level = command.levels->last;
+  if (command.area.levels && !command.remote.max_level) command.remote.max_level = command.area.levels->last;
   const StopSignals signals;
   std::optional<WaitLimit> limit(command.timeout_s);
   HttpOptions http = network_options(command);

@@ -229,6 +229,11 @@ Result<std::shared_ptr<TileSource>> open_online(const SourceOptions& options) {
 
 }  // namespace
 
+Result<fs::path> cache_file_of_set(SourceOptions options, const TileSetInfo& opened, const std::string& time) {
+  if (is_template(options)) options.remote.time = opened.time;
+  return cache_file_at(options, time, opened.time);
+}
+
 Result<std::shared_ptr<TileSource>> open_remote(const SourceOptions& options) {
   if (options.offline) return open_offline(options);
   const WaitLimit limit(options.timeout_s);

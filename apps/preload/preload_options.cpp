@@ -1,73 +1,15 @@
 #include "apps/preload/preload_options.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "apps/open_scene/options/option_checks.h"
 #include "apps/open_scene/options/remote_set_options.h"
 #include "apps/open_scene/options/shard_option.h"
-#include "base/number.h"
 #include "streaming/cut/output/tile_writer.h"
-#include "tiles/tile_grid.h"
 
 namespace terrella {
 namespace {
 
-Result<LevelRange> parse_levels(const std::string& text) {
-  const std::size_t dash = text.find('-');
-  const auto first = read_number(text.substr(0, dash));
-  const auto last = dash == std::string::npos ? first : read_number(text.substr(dash + 1));
-  const auto is_level = [](const std::optional<double>& n) {
-    return n && *n >= 0 && *n <= kMaxTileLevel && *n == std::floor(*n);
-  };
-  if (!is_level(first) || !is_level(last) || *first > *last) {
-    return Error{
-        fmt::format("{} is no range of levels; write FIRST-LAST, as 0-8, in 0...{}", in_quotes(text), kMaxTileLevel)};
-  }
-  return LevelRange{static_cast<int>(*first), static_cast<int>(*last)};
-}
-
-Result<GeoRect> parse_box(const std::string& text) {
-  std::vector<double> sides;
-  const auto pieces = split_at_commas(text);
-  for (const std::string_view piece : pieces) {
-    if (const auto degrees = read_number(piece)) sides.push_back(*degrees);
-  }
-  if (sides.size() != 4 || pieces.size() != 4) {
-    return Error{fmt::format("{} is not W,S,E,N; write four numbers in degrees, as 5,43,17,49", in_quotes(text))};
-  }
-  const bool on_planet = std::abs(sides[0]) <= 180.0 && std::abs(sides[2]) <= 180.0 && std::abs(sides[1]) <= 90.0 &&
-                         std::abs(sides[3]) <= 90.0;
-  if (!on_planet || sides[1] >= sides[3] || sides[0] == sides[2]) {
-    return Error{fmt::format("{}: WEST and EAST take -180...180 (WEST > EAST crosses 180°), SOUTH < NORTH -90...90",
-                             in_quotes(text))};
-  }
-  return GeoRect{.west = Angle::degrees(sides[0]),
-                 .south = Angle::degrees(sides[1]),
-                 .east = Angle::degrees(sides[2]),
-                 .north = Angle::degrees(sides[3])};
-}
-
-void add_area_options(CLI::App& app, PreloadCommand& command) {
-  app.add_option_function<std::string>(
-         "--levels",
-         [&command](const std::string& text) { command.levels = parsed_or_throw("--levels", parse_levels(text)); },
-         "Set the tile levels, coarsest to finest (default: all of the set)")
-      ->type_name("A-B");
-  app.add_option_function<std::vector<std::string>>(
-         "--bbox",
-         [&command](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) {
-             command.boxes.push_back(parsed_or_throw("--bbox", parse_box(text)));
-           }
-         },
-         "Add a box in degrees; WEST > EAST crosses 180°. Repeatable")
-      ->type_name("W,S,E,N")
-      ->allow_extra_args(false);
-  app.add_option("--polygon", command.polygons, "Add GeoJSON polygons; edges are great circles. Repeatable")
-      ->type_name("F.geojson")
-      ->allow_extra_args(false);
+void add_place_options(CLI::App& app, PreloadCommand& command) {
+  add_area_options(app, command.area);
   app.add_option(
          "--flight", command.flight,
          "Load the tiles that the viewer would request along a flight: a GeoJSON LineString of eye positions and "
@@ -102,6 +44,11 @@ void add_network_options(CLI::App& app, PreloadCommand& command) {
   app.add_option("--rate", command.http.rate_per_host,
                  "Limit the requests per second to one host, retries included (default: no limit)")
       ->check(number_in(0.01, 1e6));
+  app.add_option_function<std::string>(
+         "--between",
+         [&command](const std::string& text) { command.between = parsed_or_throw("--between", parse_day_hours(text)); },
+         "Request tiles only in this part of each day, and wait outside of it: local time, or UTC as 22:00-06:00Z")
+      ->type_name("HH:MM-HH:MM[Z]");
   add_timeout_option(app, command.timeout_s, "Wait at most this many seconds for a server until the tiles are planned");
   app.add_option_function<int>(
          "--retries", [&command](int retries) { command.http.attempts = retries + 1; },
@@ -127,7 +74,7 @@ void add_preload_options(CLI::App& app, PreloadCommand& command) {
                  "Web Mercator, is made at the end, of a cache beside it")
       ->required()
       ->type_name("CACHE.gpkg|OUT.mbtiles|OUT.pmtiles");
-  add_area_options(app, command);
+  add_place_options(app, command);
   add_remote_set_options(app, command.remote);
   add_times_option(app, command);
   add_choice<Projection>(app, "--projection", command.remote.projection,
@@ -162,8 +109,10 @@ Status check_together(const PreloadCommand& command) {
     return Error{"--times and --layer-time: one at a time"};
   }
   if (command.release && command.dry_run) return Error{"--release and --dry-run: one at a time"};
-  if (!command.flight.empty() && (!command.boxes.empty() || !command.polygons.empty())) {
-    return Error{"--flight and --bbox or --polygon: one at a time; the same cache takes both, one after the other"};
+  if (Status together = check_area(command.area); !together) return together;
+  if (!command.flight.empty() && !command.area.is_planet()) {
+    return Error{
+        "--flight and --bbox, --polygon or --route: one at a time; the same cache takes both, one after the other"};
   }
   if (is_web_format(command.output)) {
     if (command.shard) {

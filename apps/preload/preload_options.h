@@ -6,34 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "apps/preload/day_hours.h"
+#include "apps/preload/preload_area.h"
 #include "geo/camera.h"
-#include "geo/coordinates.h"
 #include "streaming/http/http_fetcher.h"
 #include "streaming/preload/tile_plan.h"
 #include "streaming/remote/remote_options.h"
 
 namespace terrella {
 
-/// First and last level of a range, both included.
-struct LevelRange {
-  int first = 0;
-  int last = 0;
-};
-
 /// Options of `terrella preload`; the parse has checked every value.
 struct PreloadCommand {
   Url source;
   std::string output;
-  std::optional<LevelRange> levels;
-  std::vector<GeoRect> boxes;
-  std::vector<std::string> polygons;
+  PreloadArea area;
   std::string flight;
   Viewport size{.width_px = 1920, .height_px = 1080};
   std::optional<Shard> shard;
   std::vector<std::string> times;  ///< instants to load (preload_instants()); empty: that of the source
   RemoteOptions remote;
   HttpOptions http;
-  double timeout_s = 600.0;  ///< longest wait for a server before the first tile is requested
+  std::optional<DayHours> between;  ///< when tiles may be requested; none: always
+  double timeout_s = 600.0;         ///< longest wait for a server before the first tile is requested
   std::optional<double> refresh_older_than_days;
   std::size_t cache_size_mb = 0;
   std::string missing_file;

@@ -17,6 +17,7 @@ void add_cut_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 void add_merge_command(CLI::App& app, int& exit_code);
 void add_preload_command(CLI::App& app, int& exit_code);
+void add_purge_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_serve_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);

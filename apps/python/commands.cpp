@@ -85,6 +85,7 @@ void add_commands(py::module_& module) {
   add_function<&add_info_command>(module, "info");
   add_function<&add_merge_command>(module, "merge");
   add_function<&add_convert_command>(module, "convert");
+  add_function<&add_purge_command>(module, "purge");
 }
 
 }  // namespace terrella

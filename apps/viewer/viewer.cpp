@@ -75,6 +75,7 @@ std::optional<NextScene> Viewer::run() {
     modes_.play().advance(Input::now());
     timeline_.advance();
     flights_.advance(Input::now());
+    keep_.advance();
     navigator_.set_viewport(framebuffer);
     tell_of_finest_texels();
     navigator_.advance(Input::now());
@@ -113,6 +114,7 @@ void Viewer::handle_events() {
   for (OtherBodyFile& file : layers_.take_other_bodies()) question_.ask(std::move(file));
   if (layers_.take_open_wish()) open_.toggle();
   if (auto layer = layers_.take_list_wish()) list_.open(*std::move(layer));
+  if (auto layer = layers_.take_keep_wish()) keep_.open(*layer);
   follow_panels();
 }
 
@@ -266,8 +268,8 @@ void Viewer::draw_legend(float foot, bool before_panels) const {
 
 // In a small window the panel that was opened last is in front; panels that it covers wait until it closes.
 void Viewer::cover_panels(Viewport framebuffer) {
-  std::array<Panel*, 15> newest{&question_,  &pictures_, &profile_, &timeline_,  &search_, &open_,   &projects_, &body_,
-                                &catalogue_, &list_,     &flights_, &bookmarks_, &draw_,   &layers_, &modes_};
+  std::array<Panel*, 16> newest{&keep_, &question_,  &pictures_, &profile_, &timeline_,  &search_, &open_,   &projects_,
+                                &body_, &catalogue_, &list_,     &flights_, &bookmarks_, &draw_,   &layers_, &modes_};
   std::ranges::sort(newest, std::ranges::greater(), &Panel::opened);
   std::vector<UiBox> front;
   const bool resized = std::exchange(panels_size_, framebuffer) != framebuffer;  // covered panels have other places now

@@ -16,6 +16,7 @@
 #include "apps/viewer/feature_list/feature_list.h"
 #include "apps/viewer/flights/flights.h"
 #include "apps/viewer/input.h"
+#include "apps/viewer/offline/keep_offline.h"
 #include "apps/viewer/panels/status_line.h"
 #include "apps/viewer/panels/ui.h"
 #include "apps/viewer/parts/bookmark_views.h"
@@ -185,6 +186,7 @@ class Viewer {
                           return now;
                         },
                     .opening = [this] { return !layers_.job().empty(); }}};
+  KeepOffline keep_{context_, options_.scene.base};
   Cutting cutting_;
   PlaceMenu menu_{context_,
                   actions(),
@@ -196,9 +198,10 @@ class Viewer {
   Clock::time_point quit_until_{};  ///< a second Esc quits until then
   Seconds turned_back_{-1.0e3};     ///< when the compass was last clicked
   /// In the order in which Esc closes them and F6 chooses a panel; drawn in the reverse order.
-  const std::array<Part*, 21> parts_{&help_, &menu_,      &question_,  &pictures_, &search_,  &open_,    &projects_,
-                                     &body_, &catalogue_, &bookmarks_, &list_,     &balloon_, &profile_, &timeline_,
-                                     &draw_, &flights_,   &layers_,    &modes_,    &measure_, &cutting_, &map_};
+  const std::array<Part*, 22> parts_{&help_,     &menu_,     &question_,  &pictures_,  &search_, &open_,
+                                     &projects_, &body_,     &catalogue_, &bookmarks_, &list_,   &balloon_,
+                                     &profile_,  &timeline_, &draw_,      &flights_,   &keep_,   &layers_,
+                                     &modes_,    &measure_,  &cutting_,   &map_};
   Part* front_ = nullptr;  ///< front_panel() at the last look
   int panel_frames_ = 0;   ///< frames still to draw
   Viewport panels_size_;   ///< framebuffer size in the last frame with panels

@@ -48,6 +48,32 @@ std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic
   return places;
 }
 
+std::vector<Geodetic> ring_around_way(const Ellipsoid& ellipsoid, const Geodetic& from, const Geodetic& to,
+                                      double radius_m) {
+  constexpr int kArcs = 24;                // pieces of half a circle; their chords stay beyond the radius
+  constexpr double kStepsARadius = 320.0;  // the ring's sides are no geodesics
+  const GeographicLib::GeodesicExact geodesics = geodesics_of(ellipsoid);
+  const auto line = geodesics.InverseLine(latitude_deg(from), from.lon.deg(), latitude_deg(to), to.lon.deg());
+  const double away_m = radius_m / std::cos(Angle::degrees(90.0 / kArcs).rad());
+  const int steps = static_cast<int>(std::ceil(line.Distance() / ellipsoid.a_m() * kStepsARadius));
+  std::vector<Geodetic> ring;
+  ring.reserve(2 * (static_cast<std::size_t>(steps) + kArcs + 1));
+  const auto add = [&](double along_m, double turn_deg) {
+    double lat_deg = 0.0, lon_deg = 0.0, azimuth_deg = 0.0;
+    line.Position(along_m, lat_deg, lon_deg, azimuth_deg);
+    geodesics.Direct(lat_deg, lon_deg, azimuth_deg + turn_deg, away_m, lat_deg, lon_deg);
+    ring.push_back({.lat = Angle::degrees(lat_deg), .lon = Angle::degrees(lon_deg)});
+  };
+  for (const bool back : {false, true}) {
+    for (int k = 0; k < steps; ++k) {
+      const double share = double(back ? steps - k : k) / steps;
+      add(share * line.Distance(), back ? 90.0 : -90.0);
+    }
+    for (int k = 0; k < kArcs; ++k) add(back ? 0.0 : line.Distance(), (back ? 90.0 : -90.0) + 180.0 * k / kArcs);
+  }
+  return ring;
+}
+
 PolygonMeasure polygon_measure(const Ellipsoid& ellipsoid, std::span<const Geodetic> ring) {
   const GeographicLib::GeodesicExact geodesics = geodesics_of(ellipsoid);
   GeographicLib::PolygonAreaExact polygon(geodesics);

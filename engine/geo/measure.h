@@ -24,6 +24,12 @@ namespace terrella {
 [[nodiscard]] std::vector<Geodetic> geodesic_places(const Ellipsoid& ellipsoid, const Geodetic& from,
                                                     const Geodetic& to, int count);
 
+/// Returns a ring round all places within `radius_m` of the shortest way between two places, in order; a circle if the
+/// places are one. The ring and the edges between its places lie at radius_m to 1.003 · radius_m from the way. Way and
+/// radius are at most a quarter of the equatorial radius.
+[[nodiscard]] std::vector<Geodetic> ring_around_way(const Ellipsoid& ellipsoid, const Geodetic& from,
+                                                    const Geodetic& to, double radius_m);
+
 struct PolygonMeasure {
   /// Area of the smaller side, never negative; for a ring that crosses itself, the difference of its two sides.
   double area_m2 = 0.0;

@@ -18,42 +18,10 @@ constexpr double kMostPiecesPerPoint = 4.0;
 
 class RegionReader {
  public:
-  Status add_document(const json& object) {
-    const std::string type = geojson_type(object);
-    if (type == "FeatureCollection") return add_features(object);
-    if (type == "Feature") return add_feature(object);
-    return add_geometry(object, true);
-  }
-  [[nodiscard]] Region take() { return std::move(region_); }
-  [[nodiscard]] bool found() const { return !region_.empty(); }
-
- private:
-  Status add_features(const json& object) {
-    const auto features = object.find("features");
-    if (features == object.end() || !features->is_array()) return Error{"a FeatureCollection without \"features\""};
-    for (std::size_t i = 0; i < features->size(); ++i) {
-      const json& feature = (*features)[i];
-      if (const Status added = add_feature(feature); !added) {
-        return Error{fmt::format("{}: {}", feature_name(feature, i), added.error().message)};
-      }
-    }
-    return Done{};
-  }
-
-  Status add_feature(const json& feature) {
-    if (geojson_type(feature) != "Feature") return Error{"not a Feature"};
-    const auto geometry = feature.find("geometry");
-    if (geometry == feature.end()) return Error{"a Feature without \"geometry\""};
-    return geometry->is_null() ? Status(Done{}) : add_geometry(*geometry, true);
-  }
-
-  Status add_geometry(const json& geometry, bool collections) {
+  Status add_geometry(const json& geometry) {
     const std::string type = geojson_type(geometry);
-    if (type == "GeometryCollection" && collections) {
-      return for_each(geometry, "geometries", [this](const json& part) { return add_geometry(part, false); });
-    }
     if (type == "MultiPolygon") {
-      return for_each(geometry, "coordinates", [this](const json& part) { return add_polygon(part); });
+      return for_each_entry(geometry, "coordinates", [this](const json& part) { return add_polygon(part); });
     }
     if (type != "Polygon") {
       return Error{fmt::format("its geometry is {}; a Polygon or MultiPolygon is needed",
@@ -62,17 +30,10 @@ class RegionReader {
     const auto rings = geometry.find("coordinates");
     return rings == geometry.end() ? Status(Error{"a Polygon without \"coordinates\""}) : add_polygon(*rings);
   }
+  [[nodiscard]] Region take() { return std::move(region_); }
+  [[nodiscard]] bool found() const { return !region_.empty(); }
 
-  template <class Call>
-  static Status for_each(const json& object, const char* member, const Call& call) {
-    const auto parts = object.find(member);
-    if (parts == object.end() || !parts->is_array()) return Error{fmt::format("it has no list \"{}\"", member)};
-    for (const json& part : *parts) {
-      if (const Status done = call(part); !done) return done.error();
-    }
-    return Done{};
-  }
-
+ private:
   Status add_polygon(const json& coordinates) {
     if (!coordinates.is_array() || coordinates.empty()) return Error{"a polygon without rings"};
     std::vector<MapRing> rings;
@@ -127,7 +88,8 @@ Result<Region> parse_geojson_region(std::string_view text, const std::string& wh
   const auto object = parse_geojson(text, where);
   if (!object) return object.error();
   RegionReader reader;
-  if (const Status read = reader.add_document(*object); !read) {
+  const Status read = for_each_geometry(*object, [&](const json& geometry) { return reader.add_geometry(geometry); });
+  if (!read) {
     return Error{fmt::format("{}: {}", where, read.error().message)};
   }
   if (!reader.found())

@@ -13,6 +13,50 @@ namespace terrella {
 
 using nlohmann::json;
 
+namespace {
+
+using TakeGeometry = std::function<Status(const json&)>;
+
+Status take_parts(const json& geometry, const TakeGeometry& take) {
+  return geojson_type(geometry) == "GeometryCollection" ? for_each_entry(geometry, "geometries", take) : take(geometry);
+}
+
+Status take_feature(const json& feature, const TakeGeometry& take) {
+  if (geojson_type(feature) != "Feature") return Error{"not a Feature"};
+  const auto geometry = feature.find("geometry");
+  if (geometry == feature.end()) return Error{"a Feature without \"geometry\""};
+  return geometry->is_null() ? Status(Done{}) : take_parts(*geometry, take);
+}
+
+Status take_features(const json& object, const TakeGeometry& take) {
+  const auto features = object.find("features");
+  if (features == object.end() || !features->is_array()) return Error{"a FeatureCollection without \"features\""};
+  for (std::size_t i = 0; i < features->size(); ++i) {
+    const json& feature = (*features)[i];
+    if (const Status taken = take_feature(feature, take); !taken) {
+      return Error{fmt::format("{}: {}", feature_name(feature, i), taken.error().message)};
+    }
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Status for_each_geometry(const json& document, const TakeGeometry& take) {
+  const std::string type = geojson_type(document);
+  if (type == "FeatureCollection") return take_features(document, take);
+  return type == "Feature" ? take_feature(document, take) : take_parts(document, take);
+}
+
+Status for_each_entry(const json& object, const char* list, const TakeGeometry& take) {
+  const auto entries = object.find(list);
+  if (entries == object.end() || !entries->is_array()) return Error{fmt::format("it has no list \"{}\"", list)};
+  for (const json& entry : *entries) {
+    if (const Status taken = take(entry); !taken) return taken.error();
+  }
+  return Done{};
+}
+
 Result<json> parse_geojson(std::string_view text, const std::string& where) {
   Result<json> object = parse_json(text);
   if (!object) return Error{fmt::format("{}: {}; a GeoJSON file (RFC 7946) is needed", where, object.error().message)};

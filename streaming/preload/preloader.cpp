@@ -61,15 +61,16 @@ class Run {
 
   Status first_pass() {
     while (going()) {
-      for (int n = 0; n < kTilesAtATime && asked_.size() < options_.window && !wanted_.done(); ++n) {
+      const bool open = is_open();
+      for (int n = 0; open && n < kTilesAtATime && asked_.size() < options_.window && !wanted_.done(); ++n) {
         auto next = wanted_.next();
         if (!next) return next.error();
         if (!*next) break;
         ask(**next);
       }
-      if (asked_.empty() && wanted_.done()) return Done{};
-      const bool looking = !wanted_.done() && asked_.size() < options_.window;
-      take_answers(looking ? milliseconds(0) : kLongestWait);
+      if (asked_.empty() && put_off_.empty() && wanted_.done()) return Done{};
+      const bool looking = open && !wanted_.done() && asked_.size() < options_.window;
+      take_answers(looking ? milliseconds(0) : longest_wait(open));
     }
     return Done{};
   }
@@ -79,15 +80,40 @@ class Run {
     second_ = true;
     std::vector<std::pair<Asked, std::string>> again = std::exchange(failed_, {});
     std::size_t next = 0;
-    while (going() && (next < again.size() || !asked_.empty())) {
-      for (; asked_.size() < options_.window && next < again.size(); ++next) {
+    while (going() && (next < again.size() || !asked_.empty() || !put_off_.empty())) {
+      const bool open = is_open();
+      for (; open && asked_.size() < options_.window && next < again.size(); ++next) {
         const Asked& asked = again[next].first;
         ask({.id = asked.id, .have = asked.have, .etag = {}, .last_modified = {}});
       }
-      take_answers(kLongestWait);
+      take_answers(longest_wait(open));
     }
     failed_.insert(failed_.end(), std::make_move_iterator(again.begin() + static_cast<std::ptrdiff_t>(next)),
                    std::make_move_iterator(again.end()));
+  }
+
+  /// True if requests may be sent. Otherwise takes back those that wait to be sent, and asks again later.
+  bool is_open() {
+    if (options_.closed_for && options_.closed_for().count() > 0) {
+      withdraw_waiting();
+      return false;
+    }
+    for (const Asked& asked : std::exchange(put_off_, {})) {
+      ask({.id = asked.id, .have = asked.have, .etag = {}, .last_modified = {}});
+    }
+    return true;
+  }
+
+  [[nodiscard]] milliseconds longest_wait(bool open) const { return open ? kLongestWait : kBetweenReports; }
+
+  /// Withdraws requests not sent yet, which are the newest.
+  void withdraw_waiting() {
+    for (std::size_t waiting = origin_->counts().waiting; waiting > 0 && !asked_.empty(); --waiting) {
+      const auto latest = std::prev(asked_.end());
+      origin_->withdraw(latest->first);
+      put_off_.push_back(latest->second);
+      asked_.erase(latest);
+    }
   }
 
   /// Reports progress from time to time. Returns false if the run must stop.
@@ -194,15 +220,9 @@ class Run {
     if (options_.on_missing) options_.on_missing(id, kind, why);
   }
 
-  // Waits for answers that the host has begun. Withdraws requests not sent yet, which are the newest.
+  // Waits for answers that the host has begun.
   void wind_down() {
-    std::size_t waiting = origin_->counts().waiting;
-    while (waiting > 0 && !asked_.empty()) {
-      const auto latest = std::prev(asked_.end());
-      origin_->withdraw(latest->first);
-      asked_.erase(latest);
-      --waiting;
-    }
+    withdraw_waiting();
     const auto deadline = Clock::now() + options_.finish_within;
     while (!asked_.empty() && Clock::now() < deadline && !tally_->failed()) take_answers(kLongestWait);
   }
@@ -231,6 +251,7 @@ class Run {
   std::shared_ptr<StoreTally> tally_;
   ReplyQueue answers_{kAnswersAtATime};
   std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
+  std::vector<Asked> put_off_;            ///< withdrawn until requests may be sent
   std::vector<std::pair<Asked, std::string>> failed_;
   PreloadCounts counts_;
   mutable HttpCounts last_asked_;

@@ -51,6 +51,9 @@ struct PreloadOptions {
   int give_up_after = 512;                        ///< consecutive failures after which the source counts as down
   std::chrono::milliseconds finish_within{5000};  ///< time for requests in flight after a stop
 
+  /// Returns how long nothing may be requested from now on; 0: requests may be sent. Called often; none: always.
+  /// Requests that are on their way come to their end meanwhile. thread: the caller of preload()
+  std::function<std::chrono::seconds()> closed_for{};
   /// Called about ten times a second and at the end. Return false to stop. thread: the caller of preload()
   std::function<bool(const PreloadCounts&)> progress{};
   /// Called for each tile that would survive kill -9. thread: the cache's writer

@@ -134,7 +134,7 @@ OUT_OF_RANGE = [
 # Types of flags, and of words and names of files: no number can be wrong in them.
 WORDS = {"", "Excludes:", "Needs:", "CRS", "F.geojson", "FILE", "FILE.json", "FILE:FILE", "FILE|off", "NAME|FILE", "TEXT",
          "TILESET", "TILESET[:OPACITY]", "UTC", "'K: V'", "#RRGGBB", "RASTER|FOLDER|TILESET",
-         "OUT.gpkg|OUT.mbtiles|OUT.pmtiles|DIR", "OUT.gpkg|.mbtiles|.pmtiles", "CACHE.gpkg|OUT.mbtiles|OUT.pmtiles"}
+         "HH:MM-HH:MM[Z]", "OUT.gpkg|OUT.mbtiles|OUT.pmtiles|DIR", "OUT.gpkg|.mbtiles|.pmtiles", "CACHE.gpkg|OUT.mbtiles|OUT.pmtiles"}
 # One form for each place of a number in a type of several.
 FORMS = {"LAT,LON,ALT[,HEADING[,PITCH[,FOV]]]": [",".join("{}" if k == n else "1" for k in range(6)) for n in range(6)],
          "W,S,E,N": ["{},0,1,1", "0,{},1,1", "0,0,{},1", "0,0,1,{}"], "R,G,B": ["{},2,3", "1,{},3", "1,2,{}"],
@@ -190,7 +190,7 @@ class Ranges(ProgramTest):
                 for value in bad_values(option, kind):
                     with self.subTest(command, option=option, value=value):
                         files = {"merge": ("a.gpkg", "-o", "b.gpkg"), "info": ("a.tif",), "bench": ("views",),
-                                 "view": ("a.tif",)}.get(command, ("a.tif", "-o", "b.gpkg"))
+                                 "view": ("a.tif",), "purge": ("a.gpkg",)}.get(command, ("a.tif", "-o", "b.gpkg"))
                         self.assert_fails(WRONG_USAGE, command, *files, f"{option}={value}", says=[option])
         self.assert_nothing_but()
 

@@ -110,13 +110,16 @@ class Commands(ModuleTest):
         terrella.cut(PICTURE, output=self.folder / "moon", attribution="", body="moon", tile_size=1024)
         self.assertEqual(terrella.info(self.folder / "moon")["body"], "moon", "an empty text takes no other option")
 
-    def test_preload_merge_and_convert(self):
+    def test_preload_merge_convert_and_purge(self):
         address = serve(self, NATURAL_EARTH)
         done = terrella.preload(address + "/{z}/{x}/{-y}.jpg", output=self.folder / "a.gpkg", levels=(0, 1), header=["X-A: 1"])
         self.assertEqual(done["stored"], 10)
         merged = terrella.merge([self.folder / "a.gpkg", self.folder / "a.gpkg"], output=self.folder / "b.gpkg")
         self.assertEqual(merged["tiles"], 10)
         self.assertEqual(terrella.convert(self.folder / "b.gpkg", self.folder / "tiles")["tiles"], 10)
+        self.assertEqual(terrella.purge(self.folder / "b.gpkg", levels=(1, 1), dry_run=True)["tiles"], 8)
+        self.assertEqual(terrella.purge(self.folder / "b.gpkg", levels=(1, 1))["tiles"], 8)
+        self.assertEqual(terrella.info(self.folder / "b.gpkg")["cache"]["tiles"], 2)
 
     def test_errors_have_the_words_of_the_command(self):
         out = self.folder / "o.png"

@@ -195,6 +195,14 @@ bool may_hold(const SourceOptions& source, std::vector<std::string>& left_out) {
 
 }  // namespace
 
+std::string preload_task_text(const SourceOptions& source) {
+  OrderedJson json = {{"command", "preload"}, {"SOURCE", source.address.with_secrets()}};
+  if (source.projection) json["projection"] = word_of(projection_words(), *source.projection);
+  put_remote(json, source.remote);
+  for (const std::string& header : source.remote.headers) json["header"].push_back(header);
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
 ProjectText project_text(const SceneOptions& scene, const fs::path& folder) {
   ProjectText project;
   OrderedJson layers = OrderedJson::array();

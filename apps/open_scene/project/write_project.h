@@ -19,4 +19,8 @@ struct ProjectText {
 /// thread: any
 [[nodiscard]] ProjectText project_text(const SceneOptions& scene, const std::filesystem::path& folder);
 
+/// Writes a task file of `terrella preload` that names a source on a server with all that is said about it, secrets
+/// too. thread: any
+[[nodiscard]] std::string preload_task_text(const SourceOptions& source);
+
 }  // namespace terrella

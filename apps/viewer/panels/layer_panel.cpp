@@ -7,6 +7,7 @@
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
 #include "apps/viewer/styles/style_panel.h"
+#include "streaming/remote/describe_remote.h"
 
 namespace terrella {
 namespace {
@@ -102,6 +103,9 @@ LayerAsk draw_buttons(const LayerRow& row) {
   }
   if (row.bounds) button("Zoom to", LayerAsk::look_at, "Flies to the layer.");
   if (row.features && !row.features->empty()) button("List", LayerAsk::list, "Lists the objects, with a filter.");
+  if (row.tiles && is_remote(row.source.address) && row.source.place.crs.empty()) {
+    button("Keep offline", LayerAsk::keep, "Stores the view's tiles, for use without a network.");
+  }
   button("Remove", LayerAsk::remove, "Removes the layer from the globe; the file stays unchanged.");
   return ask;
 }

@@ -56,7 +56,7 @@ struct LayerRow {
   }
 };
 
-enum class LayerAsk { none, raise, lower, remove, look_at, list, open, undo, redo };
+enum class LayerAsk { none, raise, lower, remove, look_at, list, keep, open, undo, redo };
 /// User's request that is not stored in `rows`.
 struct LayerWish {
   LayerAsk ask = LayerAsk::none;

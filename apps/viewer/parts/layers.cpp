@@ -43,6 +43,15 @@ SourceOptions described(const Globe& globe, const LayerRow& row) {
   return source;
 }
 
+/// A layer of a server as it is shown now.
+LayerToKeep layer_to_keep(const Globe& globe, const LayerRow& row) {
+  const TileSetInfo& info = row.tiles->info();
+  LayerToKeep keep{.name = row.name, .source = row.source, .info = info, .time = info.time};
+  const std::string shown = described(globe, row).remote.time;
+  if (shown != row.source.remote.time) keep.time = shown;
+  return keep;
+}
+
 /// The smallest part of the planet that has both; nullopt if that is most of it.
 std::optional<GeoRect> around(const std::optional<GeoRect>& a, const std::optional<GeoRect>& b) {
   if (!a || !b) return a ? a : b;
@@ -71,7 +80,7 @@ bool Layers::changed() const {
   const auto has_news = [](const LayerRow& row) {
     return (!row.facts_drawn && row.has_facts()) || (row.style && row.style->has_news());
   };
-  return files_.ready() || value_.ready() || open_wish_ || list_wish_ ||
+  return files_.ready() || value_.ready() || open_wish_ || list_wish_ || keep_wish_ ||
          (panel() != nullptr && std::ranges::any_of(rows_, has_news));
 }
 
@@ -101,6 +110,9 @@ void Layers::draw_open(float foot) {
       return remove(wish.row);
     case LayerAsk::list:
       list_wish_ = {.id = rows_[wish.row].id, .name = rows_[wish.row].name, .features = rows_[wish.row].features};
+      return;
+    case LayerAsk::keep:
+      keep_wish_ = layer_to_keep(context_.globe, rows_[wish.row]);
       return;
     case LayerAsk::open:
       open_wish_ = true;

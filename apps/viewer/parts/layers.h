@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/viewer/feature_list/feature_list.h"
+#include "apps/viewer/offline/keep_offline.h"
 #include "apps/viewer/panels/layer_panel.h"
 #include "apps/viewer/panels/legend.h"
 #include "apps/viewer/parts/part.h"
@@ -49,6 +50,8 @@ class Layers : public Panel {
 
   /// The layer whose list a click has asked for, once.
   [[nodiscard]] std::optional<ListedLayer> take_list_wish() { return std::exchange(list_wish_, {}); }
+  /// The layer whose tiles a click has asked to keep, once.
+  [[nodiscard]] std::optional<LayerToKeep> take_keep_wish() { return std::exchange(keep_wish_, {}); }
   [[nodiscard]] bool has_objects(LayerId layer) const;
 
   [[nodiscard]] std::string job() const override { return files_.text(); }
@@ -117,6 +120,7 @@ class Layers : public Panel {
   ValueQuery value_;
   bool open_wish_ = false;
   std::optional<ListedLayer> list_wish_;
+  std::optional<LayerToKeep> keep_wish_;
   LayerSteps steps_;
 };
 
