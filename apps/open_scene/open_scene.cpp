@@ -151,6 +151,10 @@ Status SceneOpener::add_images() {
 /// Gives all image layers the clock of --layer-clock.
 Status SceneOpener::set_clocks() {
   if (!options_.layer_clock) return Done{};
+  const auto has_dates = [](const SceneLayer& image) { return image.tiles && image.tiles->info().steps; };
+  if (std::ranges::none_of(scene_.images, has_dates)) {
+    print_message("terrella: --layer-clock does nothing: no layer has dates\n");
+  }
   for (const SceneLayer& image : scene_.images) {
     Result<ImageLook> look = scene_.globe->look(image.id);
     if (!look) return look.error();

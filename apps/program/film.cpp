@@ -141,7 +141,7 @@ Status Film::render_frame(std::int64_t frame) {
       count(frame, *rendered);
       tiles = std::max<std::int64_t>(tiles, rendered->stats.tiles_missing + rendered->stats.tiles_pending);
       heights = std::max<std::int64_t>(heights, heights_without(rendered->stats));
-      complete = complete && is_complete(rendered->stats);
+      complete = complete && is_complete(rendered->stats) && rendered->missing_dates.empty();
       image = std::move(rendered->image);
     }
     if (light) light->add(image);

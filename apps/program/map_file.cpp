@@ -210,13 +210,25 @@ FlatMap map_of(const MapCommand& command) {
           .height_px = pixels(height)};
 }
 
+/// The tiles of a layer, at the scene's time if the layer follows that; null before its first instant.
+Result<std::shared_ptr<TileSource>> tiles_of(const SceneLayer& layer, const ImageLook& look,
+                                             std::optional<UtcTime> time) {
+  const auto& steps = layer.tiles->info().steps;
+  if (look.clock == LayerClock::own || !time || !steps) return layer.tiles;
+  if (!steps->at_or_before(*time)) return std::shared_ptr<TileSource>();
+  return layer.tiles->at_time(*time);
+}
+
 Result<std::vector<MapLayer>> layers_of(const OpenedScene& scene, const FlatMap& map) {
   std::vector<MapLayer> layers;
   for (const SceneLayer& layer : scene.images) {
     const auto look = scene.globe->look(layer.id);
     // A layer of the night shows where a time puts it, and a map has none.
     if (!look || !look->shown || look->opacity == 0.0 || look->daylight == Daylight::night) continue;
-    auto pixels = FlatMapLayer::open(layer.tiles, map, scene.body);
+    auto tiles = tiles_of(layer, *look, scene.globe->options().time);
+    if (!tiles) return Error{layer.source.address.redacted() + ": " + tiles.error().message};
+    if (!*tiles) continue;
+    auto pixels = FlatMapLayer::open(*std::move(tiles), map, scene.body);
     if (!pixels) return Error{fmt::format("--crs {}: {}", in_quotes(map.crs), pixels.error().message)};
     MapLayer made{.pixels = *std::move(pixels), .look = *look};
     if (const auto& numbers = made.pixels->info().numbers) made.numbers = *numbers;

@@ -442,13 +442,23 @@ Status ScenePicture::Parts::draw_over(const PictureOverlay& overlay) {
 }
 
 std::vector<std::string> ScenePicture::Parts::missing_dates() const {
+  const Globe& globe = *scene.globe;
+  const std::optional<UtcTime> time = keeps_features ? Experiments::of(*scene.globe).layer_clock : globe.options().time;
   std::vector<std::string> sentences;
-  for (const MissingInstant& one : scene.globe->missing_instants()) {
-    const auto source = scene.globe->source(one.layer);
-    const bool is_known = source && (*source)->info().steps;
-    const std::string date = is_known ? (*source)->info().steps->text(one.instant) : std::string("a date");
-    sentences.push_back(fmt::format("{} has no tile in view; an earlier date is shown{}{}", date,
-                                    one.why.empty() ? "" : ": ", one_line(one.why)));
+  for (const SceneLayer& image : scene.images) {
+    const auto look = globe.look(image.id);
+    const auto shown = globe.layer_time(image.id);
+    const auto steps = image.tiles ? image.tiles->info().steps : nullptr;
+    if (!look || !shown || look->clock == LayerClock::own || !steps || !time) continue;
+    const std::optional<UtcTime> wanted = steps->at_or_before(*time);
+    if (!wanted || shown->shown == wanted) continue;
+    const auto why = std::ranges::find_if(globe.missing_instants(), [&](const MissingInstant& one) {
+      return one.layer == image.id && one.instant == *wanted;
+    });
+    const bool has_reason = why != globe.missing_instants().end() && !why->why.empty();
+    sentences.push_back(fmt::format("{}: no tile of {} in view{}; {}", image.address.redacted(), steps->text(*wanted),
+                                    has_reason ? " (" + one_line(why->why) + ")" : std::string(),
+                                    shown->shown ? steps->text(*shown->shown) + " is shown" : "the layer is hidden"));
   }
   return sentences;
 }

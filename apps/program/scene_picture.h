@@ -42,7 +42,7 @@ struct Rendered {
   Image image;
   FrameStats stats;
   std::vector<MissingTile> missing, missing_heights;
-  std::vector<std::string> missing_dates;  ///< sentences: dates of layers that earlier ones stand in for, so far
+  std::vector<std::string> missing_dates;  ///< sentences about dates of the picture that earlier ones stand in for
   std::vector<std::string> attributions;
 };
 

@@ -202,26 +202,13 @@ void set_opacity(PythonGlobe& self, std::uint64_t layer, double opacity) {
 }
 
 void set_tone(PythonGlobe& self, std::uint64_t layer, double brightness, double contrast, double gamma) {
-  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
-    const auto look = globe.look(LayerId{layer});
-    if (!look) return look.error();
-    ImageLook changed = *look;
-    changed.tone = {.brightness = brightness, .contrast = contrast, .gamma = gamma};
-    return globe.set_look(LayerId{layer}, changed);
-  }));
+  change_look(self, layer,
+              [&](ImageLook& look) { look.tone = {.brightness = brightness, .contrast = contrast, .gamma = gamma}; });
 }
 
 void set_blend(PythonGlobe& self, std::uint64_t layer, const std::string& blend) {
-  const OptionWords<LayerBlend> words = layer_blend_words();
-  const auto known = std::ranges::find(words, blend, &std::pair<std::string, LayerBlend>::first);
-  if (known == words.end()) throw py::value_error("the blend is normal, multiply, screen or difference");
-  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
-    const auto look = globe.look(LayerId{layer});
-    if (!look) return look.error();
-    ImageLook changed = *look;
-    changed.blend = known->second;
-    return globe.set_look(LayerId{layer}, changed);
-  }));
+  const LayerBlend chosen = value_of_word("blend", blend, layer_blend_words());
+  change_look(self, layer, [chosen](ImageLook& look) { look.blend = chosen; });
 }
 
 /// Shows layers on one side of a line; none: everywhere.

@@ -67,15 +67,8 @@ void set_time_of_globe(PythonGlobe& self, const std::optional<std::string>& text
 }
 
 void set_layer_clock(PythonGlobe& self, std::uint64_t layer, const std::string& clock) {
-  const auto words = clock_words();
-  const auto known = std::ranges::find(words, clock, &std::pair<std::string, LayerClock>::first);
-  if (known == words.end()) throw py::value_error("clock: '" + clock + "' is none of own, globe, globe-fades");
-  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
-    auto look = globe.look(LayerId{layer});
-    if (!look) return look.error();
-    look->clock = known->second;
-    return globe.set_look(LayerId{layer}, *look);
-  }));
+  const LayerClock chosen = value_of_word("clock", clock, clock_words());
+  change_look(self, layer, [chosen](ImageLook& look) { look.clock = chosen; });
 }
 
 }  // namespace
@@ -98,8 +91,7 @@ void add_time_methods(GlobeClass& globe) {
       .def("set_layer_clock", &set_layer_clock, py::arg("layer"), py::arg("clock"),
            "set_layer_clock(self, layer, clock)\n--\n\n"
            "Choose the dates of a layer of imagery. 'own': set_layer_time() chooses. 'globe': the last date at or "
-           "before "
-           "the globe's time. 'globe-fades': that one, and the next date fades in over it.")
+           "before the globe's time. 'globe-fades': that one, and the next date fades in over it.")
       .def(
           "layer_time",
           [](PythonGlobe& self, std::uint64_t layer) {

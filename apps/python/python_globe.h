@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/open_scene/options/option_words.h"
 #include "apps/process/console.h"
 #include "apps/process/stop_signals.h"
 #include "apps/program/command_line.h"
@@ -83,8 +84,9 @@ class PythonGlobe {
     conclude(said);
     const Rendered drawn = value_or_raise(*std::move(rendered));
     const int without = drawn.stats.tiles_missing + drawn.stats.tiles_pending + heights_without(drawn.stats);
-    if (without > 0) {
-      std::vector<std::string> messages = {fmt::format("{} tiles are missing", without)};
+    if (without > 0 || !drawn.missing_dates.empty()) {
+      std::vector<std::string> messages = drawn.missing_dates;
+      if (without > 0) messages.push_back(fmt::format("{} tiles are missing", without));
       for (const MissingTile& tile : drawn.missing) messages.push_back("missing: " + name_of(tile));
       conclude({.exit_code = kDoneInPart, .result = {}, .messages = std::move(messages)});
     }
@@ -163,6 +165,28 @@ class PythonGlobe {
   std::unique_ptr<ScenePicture> picture_;  // lives on the thread
   std::map<std::uint64_t, StyledFeatures> features_;
 };
+
+/// Changes the look of an image layer.
+template <class Change>
+void change_look(PythonGlobe& self, std::uint64_t layer, const Change& change) {
+  value_or_raise(self.with_globe([&](Globe& globe) -> Status {
+    auto look = globe.look(LayerId{layer});
+    if (!look) return look.error();
+    change(*look);
+    return globe.set_look(LayerId{layer}, *look);
+  }));
+}
+
+/// The value of a word, or an exception that lists the words.
+template <class Value>
+Value value_of_word(const char* what, const std::string& text, const OptionWords<Value>& words) {
+  std::string all;
+  for (const auto& [word, value] : words) {
+    if (word == text) return value;
+    all += (all.empty() ? "" : ", ") + word;
+  }
+  throw py::value_error(shown_message(fmt::format("{}: '{}' is none of {}", what, text, all)));
+}
 
 using GlobeClass = py::class_<PythonGlobe>;
 

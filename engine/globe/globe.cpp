@@ -25,7 +25,7 @@ constexpr const char* kOtherContext =
 
 // Bodies of dust without air or ice.
 bool is_dusty(const Body& body) {
-  constexpr std::array<std::string_view, 5> kDusty{"moon", "mercury", "phobos", "deimos", "ceres"};
+  constexpr std::array<std::string_view, 6> kDusty{"moon", "mercury", "phobos", "deimos", "ceres", "vesta"};
   return std::ranges::find(kDusty, body.name) != kDusty.end();
 }
 

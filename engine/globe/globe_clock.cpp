@@ -14,36 +14,46 @@ void Globe::Impl::follow_clock() {
   for (const LayerId id : ids) follow_clock(id);
 }
 
-// Each instant is asked for once: one that is missing is not asked for again in every frame.
+bool Globe::Impl::follows_clock(const ImageLayer& layer) const {
+  const auto& steps = layer.source()->info().steps;
+  return layer.look().clock != LayerClock::own && layer_clock() && steps && !steps->empty();
+}
+
+// Each instant is asked for once: one that is missing is not asked for again in every frame. While the wanted one
+// comes, the layer shows what it showed; but it does not stay at an instant that is yet to be.
 void Globe::Impl::follow_clock(LayerId id) {
   ImageLayer& shown = *image(id);
-  const LayerClock clock = shown.look().clock;
-  const std::shared_ptr<const TimeSteps> steps = shown.source()->info().steps;
-  const std::optional<UtcTime> time = layer_clock();
-  if (clock == LayerClock::own || !time || !steps || steps->empty()) {
+  if (!follows_clock(shown)) {
     shown.set_early(false);
     if (following.erase(id) > 0) drop_coming(id, Coming::ahead);
     return;
   }
+  const std::shared_ptr<const TimeSteps> steps = shown.source()->info().steps;
   Following& one = following[id];
   if (one.steps != steps) one = {.steps = steps};
-  const std::optional<UtcTime> step = steps->at_or_before(*time);
-  const auto follow = [&](const Status& followed, UtcTime instant) {
-    if (!followed) missing_instants.push_back({id, instant, followed.error().message});
-  };
+  const std::optional<UtcTime> step = steps->at_or_before(*layer_clock());
   if (step && one.step != step) {
     one.step = step;
-    follow(go_to_time(shown, *step), *step);
+    if (const Status asked = go_to_time(shown, *step); !asked) note_missing(id, *step, asked.error().message);
     put_in_place();
   }
-  image(id)->set_early(!step);
-  const bool is_there = newest_coming(*image(id)) == nullptr;  // the next one is asked for after it
-  const std::optional<UtcTime> next =
-      step && is_there && clock == LayerClock::globe_fades ? steps->after(*step) : std::optional<UtcTime>();
-  if (next == one.next) return;
+  ImageLayer& now = *image(id);
+  const bool is_there = newest_coming(now) == nullptr;
+  const std::optional<UtcTime> instant = now.source()->info().instant;
+  now.set_early(!step || (is_there && instant && *instant > *step));
+  follow_next(now, step && is_there ? steps->after(*step) : std::nullopt);
+}
+
+// The next instant is asked for once the present one is there.
+void Globe::Impl::follow_next(const ImageLayer& shown, std::optional<UtcTime> next) {
+  Following& one = following[shown.id()];
+  if (shown.look().clock != LayerClock::globe_fades) next.reset();
+  const bool is_known = next == one.next && (!next || one.has_failed || coming_at(shown, *next) != nullptr);
+  if (is_known) return;
   one.next = next;
   one.fades = false;
-  next ? follow(load_ahead(*image(id), *next), *next) : drop_coming(id, Coming::ahead);
+  if (!next) return drop_coming(shown.id(), Coming::ahead);
+  one.has_failed = !load_ahead(shown, *next);  // told when the instant itself is asked for
 }
 
 Globe::Impl::Fade Globe::Impl::fade_of(const ImageLayer& shown) const {
@@ -59,7 +69,7 @@ Globe::Impl::Fade Globe::Impl::fade_of(const ImageLayer& shown) const {
 }
 
 // Two layers of opacity a(1-s)/(1-as) and as, one over the other, have the mean of their colours with weights 1-s and s
-// at opacity a.
+// at opacity a. Where one of them is transparent the other must fade alone: with a(1-s).
 ImageLayer* Globe::Impl::fade_over(ImageLayer& shown) {
   shown.set_share(1.0);
   if (const auto found = following.find(shown.id()); found != following.end() && found->second.next) {
@@ -70,7 +80,8 @@ ImageLayer* Globe::Impl::fade_over(ImageLayer& shown) {
   if (next == nullptr) return nullptr;
   if (next->look() != shown.look()) next->set_look(shown.look());
   next->set_share(share);
-  shown.set_share((1.0 - share) / (1.0 - shown.look().opacity * share));
+  const bool alone = shown.is_see_through(sides()) || next->is_see_through(sides());
+  shown.set_share((1.0 - share) / (alone ? 1.0 : 1.0 - shown.look().opacity * share));
   return next;
 }
 

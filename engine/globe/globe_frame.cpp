@@ -35,7 +35,7 @@ void agree_on_blends(std::vector<LayerFrame>& layers, bool has_plain) {
 void GlobeView::Impl::stack_layers() {
   stack.clear();
   for (const auto& layer : globe->images) {
-    if (layer->is_drawn(globe->sides())) {
+    if (layer->is_drawn(globe->sides()) && !layer->is_early()) {
       stack.push_back(&layer->seen_by(id));
       if (ImageLayer* next = globe->fade_over(*layer); next != nullptr) stack.push_back(&next->seen_by(id));
     } else {
@@ -305,10 +305,12 @@ FrameStats GlobeView::Impl::draw(unsigned framebuffer, Viewport viewport, glm::i
   globe->put_in_place();
   const bool fades_now = std::ranges::any_of(globe->images, [this](const auto& layer) {
     ImageLayer* next = globe->fade_over(*layer);
-    return next != nullptr && layer->is_drawn(globe->sides()) &&
+    return next != nullptr && layer->is_drawn(globe->sides()) && !layer->is_early() &&
            std::ranges::find(stack, &next->seen_by(id)) == stack.end();
   });
-  if (fades_now) changed = is_behind = true;
+  for (Impl* each : globe->views) {
+    if (fades_now) each->changed = each->is_behind = true;
+  }
   return stats;
 }
 

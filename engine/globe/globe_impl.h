@@ -73,12 +73,15 @@ struct Globe::Impl {
   /// Fails if the layer follows the globe's time.
   [[nodiscard]] Status has_own_clock(const char* call, const ImageLayer& layer) const;
   void note_missing(const ImageLayer& lacking, UtcTime instant);
+  void note_missing(LayerId layer, UtcTime instant, std::string why);
   /// Names the instant of a layer without a tile in view, and asks for an earlier one.
   void step_back(const ImageLayer& lacking);
   // The globe's time as the clock of layers (globe_clock.cpp).
   [[nodiscard]] std::optional<UtcTime> layer_clock() const;
+  [[nodiscard]] bool follows_clock(const ImageLayer& layer) const;
   void follow_clock();  ///< lets layers whose look says so follow the globe's time. Call it before a frame
   void follow_clock(LayerId id);
+  void follow_next(const ImageLayer& shown, std::optional<UtcTime> next);
   struct Fade {
     ImageLayer* next = nullptr;  ///< fades in; null: none
     double share = 0.0;          ///< part of the time from the shown instant to that of `next`
@@ -129,6 +132,7 @@ struct Globe::Impl {
     std::shared_ptr<const TimeSteps> steps;
     std::optional<UtcTime> step{}, next{};  ///< asked for; next: to fade in
     bool fades = false;                     ///< the tiles of next have come
+    bool has_failed = false;                ///< the source of next cannot be made
   };
   std::unordered_map<LayerId, Following> following;
 };

@@ -103,8 +103,7 @@ void Globe::Impl::drop_coming(LayerId id, Coming which) {
 // A layer that is not drawn needs no tiles to be in place.
 void Globe::Impl::put_in_place() {
   const auto is_due = [this](const auto& layer) {
-    const ImageLayer& shown = *image(layer->id());
-    return !layer->turn().is_ahead && (layer->is_ready() || shown.views().empty() || !shown.is_drawn(sides()));
+    return !layer->turn().is_ahead && (layer->is_ready() || !image(layer->id())->is_drawn(sides()));
   };
   if (std::ranges::none_of(coming, is_due)) return;
   std::vector<std::unique_ptr<ImageLayer>> gone, lacking;
@@ -114,6 +113,7 @@ void Globe::Impl::put_in_place() {
     const auto place = std::ranges::find(images, layer->id(), [](const auto& one) { return one->id(); });
     if (!lacks && !is_late(*layer)) {
       layer->set_look((*place)->look());
+      layer->set_early((*place)->is_early());
       place->swap(layer);
       for (GlobeView::Impl* view : views) view->is_behind = true;
     }
@@ -154,6 +154,7 @@ Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
   auto layer = impl_->make_image("Globe::set_source", imagery, std::move(source), shown->look());
   if (!layer) return layer.error();
   (*layer)->set_turn({.number = ++impl_->turns});
+  impl_->following.erase(imagery);
   impl_->drop_coming(imagery, Impl::Coming::all);
   impl_->coming.push_back(*std::move(layer));
   impl_->put_in_place();

@@ -26,7 +26,7 @@ ImageLayer* Globe::Impl::newest_coming(const ImageLayer& shown) const {
 }
 
 Status Globe::Impl::has_own_clock(const char* call, const ImageLayer& layer) const {
-  if (!following.contains(layer.id())) return Done{};
+  if (!follows_clock(layer)) return Done{};
   return Error{std::string(call) +
                ": the layer follows the globe's time; call Globe::set_time(), or give ImageLook::clock own"};
 }
@@ -109,7 +109,11 @@ Status Globe::Impl::load_ahead(const ImageLayer& shown, UtcTime time) {
 
 void Globe::Impl::note_missing(const ImageLayer& lacking, UtcTime instant) {
   const auto tile = std::ranges::find(missing.rbegin(), missing.rend(), lacking.id(), &MissingTile::layer);
-  missing_instants.push_back({lacking.id(), instant, tile == missing.rend() ? "" : tile->failure.why});
+  note_missing(lacking.id(), instant, tile == missing.rend() ? "" : tile->failure.why);
+}
+
+void Globe::Impl::note_missing(LayerId layer, UtcTime instant, std::string why) {
+  missing_instants.push_back({layer, instant, std::move(why)});
   if (missing_instants.size() > kMostMissingInstants) missing_instants.pop_front();
 }
 

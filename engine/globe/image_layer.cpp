@@ -160,7 +160,7 @@ void ImageLayer::request(const LayerView& asking) {
 }
 
 bool ImageLayer::is_drawn(const PictureSides& sides) const {
-  return look_.shown && !is_early_ && look_.opacity > 0.0 && (sides.night || look_.daylight != Daylight::night);
+  return look_.shown && look_.opacity > 0.0 && (sides.night || look_.daylight != Daylight::night);
 }
 
 bool ImageLayer::is_opaque(const PictureSides& sides) const {

@@ -57,7 +57,7 @@ class ImageLayer {
   /// Part of the look's opacity that the layer is drawn with: less while another instant fades in over it.
   void set_share(double share) { share_ = share; }
   [[nodiscard]] double opacity() const { return share_ * look_.opacity; }
-  /// True if the globe's time, which the layer follows, is before its first instant: it is not drawn.
+  /// True if the layer has no instant to show at the globe's time, which it follows: it is not drawn.
   [[nodiscard]] bool is_early() const { return is_early_; }
   void set_early(bool early) { is_early_ = early; }
   /// True if the layer has the tiles that its views want, or will not get them.
@@ -77,6 +77,8 @@ class ImageLayer {
   [[nodiscard]] bool is_opaque(const PictureSides& sides) const;
   /// True if the layer hides all layers under it wherever it has tiles.
   [[nodiscard]] bool hides(const PictureSides& sides) const;
+  /// True if the layer may show those under it at some places more than at others.
+  [[nodiscard]] bool is_see_through(const PictureSides& sides) const { return has_transparency_ || is_special(sides); }
   /// True if the layer needs special programs (LayerFrame::special).
   [[nodiscard]] bool is_special(const PictureSides& sides) const;
   [[nodiscard]] const std::string& attribution() const { return attribution_; }

@@ -48,7 +48,8 @@ enum class LayerClock {
   globe,  ///< the last one at or before the globe's time; none before the first, and then the layer does not show
   /// As globe, and the next instant fades in over the shown one in proportion to the time. An instant whose tiles have
   /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing. A layer with
-  /// another blend than normal does not fade.
+  /// another blend than normal does not fade. Where two tiles with transparent parts are both opaque, up to a quarter
+  /// of what lies under them shows while they fade.
   globe_fades
 };
 

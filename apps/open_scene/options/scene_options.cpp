@@ -215,6 +215,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   add_stereo_options(command, options);
   add_cache_options(command, options);
   add_remote_set_options(command, options.base.remote);
+  command.get_option("--layer-clock")->excludes(command.get_option("--layer-time"));
   command.parse_complete_callback([&command, &options] {
     check_place(options.base.place);
     if (!is_project(options.base.address.with_secrets())) return;

@@ -47,8 +47,8 @@ SourceOptions described(const Globe& globe, const LayerRow& row) {
 LayerToKeep layer_to_keep(const Globe& globe, const LayerRow& row) {
   const TileSetInfo& info = row.tiles->info();
   LayerToKeep keep{.name = row.name, .source = row.source, .info = info, .time = info.time};
-  const std::string shown = described(globe, row).remote.time;
-  if (shown != row.source.remote.time) keep.time = shown;
+  const auto time = globe.layer_time(row.id);
+  if (time && time->shown && info.steps) keep.time = info.steps->text(*time->shown);
   return keep;
 }
 

@@ -134,7 +134,8 @@ void ViewModes::reset() {
     return context_.messages.say("Reset again (R) to lose the time and all settings of the view", kResetTime);
   }
   ViewSettings start = start_;
-  start.units = context_.ui.units();  // a habit of the user, not a mode
+  start.units = context_.ui.units();  // habits of the user, not modes
+  start.speed = play_.speed();
   apply(start);
   underground_.return_above();
   context_.navigator.key(NavigationKey::whole_globe, Input::now());
