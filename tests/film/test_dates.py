@@ -2,11 +2,17 @@
 
 import datetime
 import json
+import os
+import sys
 import unittest
+from pathlib import Path
 
 import pictures
 import png
-from program import DONE, FAILED, WRONG_USAGE, ProgramTest
+from program import DONE, DONE_IN_PART, FAILED, WRONG_USAGE, ProgramTest
+
+sys.path.insert(0, str(Path(os.environ["TERRELLA_SOURCE"]) / "tests/preload"))
+import servers  # noqa: E402
 
 DATES = ["20200101", "20200103", "20200104"]
 DAYS = [0, 2, 3]
@@ -67,6 +73,32 @@ class Dates(ProgramTest):
             self.film("globe-fades", "parts", "--shard", shard)
         self.assertEqual(len(self.frames("whole")), FRAMES)
         self.assertEqual(self.frames("whole"), self.frames("parts"))
+
+    def test_a_missing_date_is_the_one_before_in_any_run(self):
+        served = self.folder / "served"
+        for day, colour in zip((1, 2, 4), COLOURS):
+            for x in (0, 1):
+                tile = served / f"2020-01-0{day}" / "0" / str(x)
+                tile.mkdir(parents=True)
+                (tile / "0.png").write_bytes(pictures.png(64, 64, colour))
+        server = self.enterContext(servers.misbehaving(served, {}))
+        days = {"url": f"{server.address}/{{time}}/{{z}}/{{x}}/{{y}}.png", "tile_px": 64, "max_level": 0,
+                "times": ["2020-01-01/2020-01-04/P1D"]}
+        self.write("days.json", json.dumps(days).encode())
+        words = ["render", "days.json", "--flight", "f.geojson", "--fps", str(FPS), "--unlit", "--size", "32x32",
+                 "--layer-clock", "globe"]
+        whole = self.run_program(*words, "-o", "whole/%02d.png")
+        self.assertEqual(whole.returncode, DONE_IN_PART, whole.stderr)
+        self.assertIn("2020-01-03", whole.stderr)
+        self.assertIn("2020-01-02 is shown", whole.stderr)
+        for shard in range(1, FRAMES + 1):  # each run begins with its own date
+            self.run_program(*words, "--shard", f"{shard}/{FRAMES}", "--cache", "off", "-o", "parts/%02d.png")
+        self.assertEqual(len(self.frames("whole")), FRAMES)
+        self.assertEqual(self.frames("whole"), self.frames("parts"))
+        # Frame 10 is the first of January 3rd, frame 14 that of January 4th.
+        for frame, colour in ((10, COLOURS[1]), (11, COLOURS[1]), (14, COLOURS[2])):
+            for a, b in zip(colour, self.colours("whole")[frame]):
+                self.assertAlmostEqual(a, b, delta=LEVELS)
 
     def test_a_clock_needs_a_time(self):
         self.assert_fails(FAILED, "render", "day_{time:%Y%m%d}.png", "--layer-clock", "globe", "-o", "a.png",
