@@ -4,6 +4,9 @@
 #if defined(BLENDED_LAYER)
 #define SPECIAL_LAYER
 #endif
+#if defined(DIRECTIONS)
+#define NUMBERS
+#endif
 layout(std140, binding = 0) uniform Frame {
   mat4 view_from_ecef;     // rotation only
   vec4 eye_high_ecef;      // metres, high and low floats of the double position

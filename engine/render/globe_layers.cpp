@@ -10,8 +10,8 @@ Status GlobeRenderer::prepare_layers(const Pass& pass) {
   plan_stacks(pass);
   for (std::size_t k = 0; k < pass.input.layers.size(); ++k) {
     const LayerFrame& layer = pass.input.layers[k];
-    const bool numbers = layer.gpu->numbers != nullptr;
-    if (Status s = patches_->prepare(pass.role_of(layer), numbers, *layer.patches, stacks_.own[k]); !s) return s;
+    const TexelKind kind = kind_of(layer.gpu->numbers);
+    if (Status s = patches_->prepare(pass.role_of(layer), kind, *layer.patches, stacks_.own[k]); !s) return s;
   }
   if (has_blends(pass) && surface_look(pass) != SurfaceFromBelow::opaque) {
     if (Status s = patches_->prepare_whole(PatchPass::Whole::behind); !s) return s;
@@ -20,14 +20,16 @@ Status GlobeRenderer::prepare_layers(const Pass& pass) {
 }
 
 // Layers up to the first that has other rows than the base layer, or a shadow, or light of its own that the base
-// layer's vertices do not have, or that reads the picture below it. A translucent surface is drawn layer by layer.
+// layer's vertices do not have, or that reads the picture below it, or layers of directions. A translucent surface is
+// drawn layer by layer.
 void GlobeRenderer::plan_stacks(const Pass& pass) {
   const auto& layers = pass.input.layers;
   stack_layers_.clear();
   std::size_t stacked = 0;
   // Formulas of paper 1 are for comparison.
   const bool opaque = options_.texturing != Texturing::paper && pass.input.surface.alpha >= 1.0 &&
-                      !pass.input.naive_translucency && !pass.input.layers_one_by_one;
+                      !pass.input.naive_translucency && !pass.input.layers_one_by_one &&
+                      kind_of(pass.base().gpu->numbers) != TexelKind::directions;
   for (const LayerFrame& layer : layers) {
     const bool night = layer.daylight == Daylight::night;
     stack_layers_.push_back({.patches = layer.patches,
@@ -42,7 +44,8 @@ void GlobeRenderer::plan_stacks(const Pass& pass) {
                              .hides = layer.hides});
     const bool fits = &layer == &layers.front() ||
                       (shares_vertices(layer, layers.front()) && !(layer.height_m > 0.0 && pass.input.lit) &&
-                       (!night || options_.night_lights) && layer.blend == LayerBlend::normal);
+                       (!night || options_.night_lights) && layer.blend == LayerBlend::normal &&
+                       kind_of(layer.gpu->numbers) != TexelKind::directions);
     if (opaque && fits && stacked + 1 == stack_layers_.size()) ++stacked;
   }
   // Objects on the ground come with the last layer of a patch, unless a layer is drawn by itself after it.

@@ -38,13 +38,13 @@ Cell cell_at(vec2 p) {
 #define Texels vec2
 
 vec2 known(vec4 texel, vec4 weight) {
-  bvec4 is_known = greaterThan(abs(texel - number_look.x), vec4(number_look.y));
-  vec4 share = weight * vec4(is_known);
-  if (number_lines.w > 0.0) {
-    vec4 angle = mix(vec4(0.0), texel, is_known) * number_lines.w;
-    return vec2(dot(sin(angle), share), dot(cos(angle), share));
-  }
+  vec4 share = weight * vec4(greaterThan(abs(texel - number_look.x), vec4(number_look.y)));
+#if defined(DIRECTIONS)
+  vec4 angle = mix(vec4(0.0), texel, greaterThan(share, vec4(0.0))) * number_lines.w;
+  return vec2(dot(sin(angle), share), dot(cos(angle), share));
+#else
   return vec2(dot(texel, share), dot(vec4(1.0), share));
+#endif
 }
 
 // Weights of the texels of textureGather().
@@ -90,12 +90,13 @@ vec4 with_lines(vec4 color, float steps) {
 
 // Colour of a mean; clear if less than half of the weight has data, or no direction.
 Imagery seen(vec2 mean) {
+#if defined(DIRECTIONS)
+  float angle = atan(mean.x, mean.y);
+  float number = (angle < 0.0 ? angle + 6.28318531 : angle) / number_lines.w;
+  mean.y = step(1e-4, dot(mean, mean));
+#else
   float number = mean.x / max(mean.y, 1e-6);
-  if (number_lines.w > 0.0) {
-    float angle = atan(mean.x, mean.y);
-    number = (angle < 0.0 ? angle + 6.28318531 : angle) / number_lines.w;
-    mean.y = step(1e-4, dot(mean, mean));
-  }
+#endif
   vec4 color = textureLod(number_colors, vec2(number * number_look.z + number_look.w, 0.5), 0.0);
   if (number_lines.z > 0.0) color = with_lines(color, number * number_lines.x + number_lines.y);
   color *= step(0.5, mean.y);

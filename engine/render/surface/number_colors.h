@@ -11,6 +11,13 @@
 
 namespace terrella {
 
+/// Texels of a layer; each kind has programs of its own.
+enum class TexelKind {
+  pictures,
+  numbers,
+  directions  ///< numbers with a period (NumberInfo::period), whose means go round
+};
+
 /// The colours of a layer of numbers, for programs built with NUMBERS (shaders/surface/patch_taps.glsl): a texture of
 /// kBakedColors texels, and uniforms that take a texel to its place in this texture. thread: main (of the context)
 class NumberColors {
@@ -36,5 +43,11 @@ class NumberColors {
   gl::Texture texture_;
   glm::vec4 uniform_{0.0F}, lines_{0.0F};
 };
+
+/// Null: a layer of pictures. thread: any
+[[nodiscard]] inline TexelKind kind_of(const NumberColors* numbers) {
+  if (numbers == nullptr) return TexelKind::pictures;
+  return numbers->info().period > 0.0 ? TexelKind::directions : TexelKind::numbers;
+}
 
 }  // namespace terrella

@@ -45,8 +45,8 @@ Status PatchPass::prepare_ground(const GroundFrame& ground, const std::vector<Se
   const auto make = [this](std::uint32_t look) -> Status {
     gl::Program& place = ground_programs_[ground_place(look)];
     if (place) return Done{};
-    return build(place, {"frame.glsl", "air.glsl", "patch_ground.glsl", "patch_ground.frag"}, LayerRole::base, false,
-                 {.limb = (look & kAtLimb) != 0, .ground_alone = true, .ground = look & ~kAtLimb});
+    return build(place, {"frame.glsl", "air.glsl", "patch_ground.glsl", "patch_ground.frag"}, LayerRole::base,
+                 TexelKind::pictures, {.limb = (look & kAtLimb) != 0, .ground_alone = true, .ground = look & ~kAtLimb});
   };
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const std::uint32_t look = ground.windows[k].z;

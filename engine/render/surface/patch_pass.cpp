@@ -229,7 +229,8 @@ void PatchPass::draw_commands(int first, int last, FrameCounts& counts) {
 void PatchPass::draw(const PatchLayer& layer, const PatchBuffers& vertices, const TileTextures& tiles, LayerRole role,
                      const DrawState& state, FrameCounts& counts, Limb limb) const {
   const bool numbers = layer.numbers != nullptr;
-  const ProgramSet& set = sets_[set_index(role, numbers, light_of(role, numbers))];
+  const TexelKind kind = kind_of(layer.numbers);
+  const ProgramSet& set = sets_[set_index(role, kind, light_of(role, kind))];
   if (scene_.air != nullptr) scene_.air->bind_ground();
   glBindTextureUnit(1, layer.cells_texture.name());
   glBindSampler(1, 0);

@@ -90,7 +90,8 @@ class PatchPass {
   void set_scene(const PatchScene& scene) { scene_ = scene; }
   /// Builds the programs that draw these patches of a layer of pictures or numbers in the scene, each once; for upper
   /// layers also that of Whole::black. `own` as upload() has it.
-  Status prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches, const std::vector<bool>& own);
+  Status prepare(LayerRole role, TexelKind kind, const std::vector<SelectedPatch>& patches,
+                 const std::vector<bool>& own);
   /// The vertices from which a layer is drawn: its own, of its tree, or those of the base layer and its tree.
   struct Vertices {
     PatchBuffers& buffers;
@@ -144,18 +145,18 @@ class PatchPass {
   /// 0: ground without air before it; 1: with air, far from the ground; 2: with air, near the ground.
   [[nodiscard]] std::size_t which() const { return scene_.air == nullptr ? 0 : scene_.air->near_ground() ? 2 : 1; }
   /// The part of the light that programs for a role, for pictures or numbers, differ by.
-  [[nodiscard]] PatchLight light_of(LayerRole role, bool numbers) const {
+  [[nodiscard]] PatchLight light_of(LayerRole role, TexelKind kind) const {
     const PatchLight& light = scene_.light;
     return {.relief = light.relief,
-            .bicubic = light.bicubic && !numbers,
-            .glint = light.glint && !numbers && role == LayerRole::base};
+            .bicubic = light.bicubic && kind == TexelKind::pictures,
+            .glint = light.glint && kind == TexelKind::pictures && role == LayerRole::base};
   }
   /// Place in sets_ of the programs for a role, for pictures or numbers, in the present air and this light.
-  [[nodiscard]] std::size_t set_index(LayerRole role, bool numbers, const PatchLight& light) const {
-    const std::size_t layers = 2 * static_cast<std::size_t>(role) + (numbers ? 1 : 0);
+  [[nodiscard]] std::size_t set_index(LayerRole role, TexelKind kind, const PatchLight& light) const {
+    const std::size_t layers = kKinds * static_cast<std::size_t>(role) + static_cast<std::size_t>(kind);
     return (layers * kAirs + which()) * PatchLight::kCount + static_cast<std::size_t>(light.index());
   }
-  Status make_program(gl::Program& place, int variant, LayerRole role, bool numbers);
+  Status make_program(gl::Program& place, int variant, LayerRole role, TexelKind kind);
   /// Features of a program that not all patches of a layer need.
   struct Extras {
     bool city_lights = false, pole = false, limb = false;
@@ -163,7 +164,7 @@ class PatchPass {
     bool ground_alone = false;
     unsigned ground = 0;  ///< GroundFrame::windows, z: draws what lies on the ground; 0: nothing
   };
-  Status build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, bool numbers,
+  Status build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, TexelKind kind,
                const Extras& extras) const;
   [[nodiscard]] gl::VertexArray make_vertex_array() const;
   void set_up_vertex_arrays();
@@ -216,8 +217,8 @@ class PatchPass {
     gl::Program programs[kVariants];
     gl::Program air;
   };
-  static constexpr std::size_t kRoles = 4, kAirs = 3;
-  ProgramSet sets_[kRoles * 2 * kAirs * PatchLight::kCount];
+  static constexpr std::size_t kRoles = 4, kKinds = 3, kAirs = 3;
+  ProgramSet sets_[kRoles * kKinds * kAirs * PatchLight::kCount];
   gl::Program depth_programs_[2], flat_programs_[2], behind_programs_[2];  ///< for whole patches, and for the limb
   std::map<std::uint64_t, gl::Program> stack_programs_;
   std::map<std::uint64_t, gl::Program> ground_programs_;  ///< by ground_place() of PatchGround::Batch::look

@@ -12,6 +12,8 @@ namespace terrella {
 namespace {
 /// #defines of LayerRole.
 constexpr std::string_view kRoleDefines[] = {"BASE_LAYER", "UPPER_LAYER", "SPECIAL_LAYER", "BLENDED_LAYER"};
+/// #defines of TexelKind.
+constexpr std::string_view kKindDefines[] = {"PICTURES", "NUMBERS", "DIRECTIONS"};
 /// #defines by the number of layers of a stack.
 constexpr std::string_view kStackDefines[PatchStacks::kMost + 1] = {"NO_STACK", "STACK 1", "STACK 2", "STACK 3",
                                                                     "STACK 4"};
@@ -92,12 +94,12 @@ std::string stack_main(const StackProgram& program) {
 }
 }  // namespace
 
-Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<SelectedPatch>& patches,
+Status PatchPass::prepare(LayerRole role, TexelKind kind, const std::vector<SelectedPatch>& patches,
                           const std::vector<bool>& own) {
-  ProgramSet& set = sets_[set_index(role, numbers, light_of(role, numbers))];
+  ProgramSet& set = sets_[set_index(role, kind, light_of(role, kind))];
   const auto make = [&](int variant) -> Status {
     gl::Program& program = set.programs[variant];
-    return program ? Status{Done{}} : make_program(program, variant, role, numbers);
+    return program ? Status{Done{}} : make_program(program, variant, role, kind);
   };
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const SelectedPatch& patch = patches[k];
@@ -110,7 +112,8 @@ Status PatchPass::prepare(LayerRole role, bool numbers, const std::vector<Select
 
 gl::Program& PatchPass::whole_program(Whole what, bool limb) {
   // The air before the ground is the same in every light; its vertices have slopes if those are lit.
-  if (what == Whole::air) return sets_[set_index(LayerRole::base, false, {.relief = scene_.light.relief})].air;
+  if (what == Whole::air)
+    return sets_[set_index(LayerRole::base, TexelKind::pictures, {.relief = scene_.light.relief})].air;
   auto& programs = what == Whole::depth ? depth_programs_ : what == Whole::behind ? behind_programs_ : flat_programs_;
   return programs[limb ? 1 : 0];
 }
@@ -123,15 +126,17 @@ Status PatchPass::prepare_whole(Whole what) {
   for (const bool limb : {false, true}) {
     gl::Program& program = whole_program(what, limb);
     if (program || (limb && !scene_.limb)) continue;
-    if (Status made = build(program, {"frame.glsl", "air.glsl", file}, LayerRole::base, false, {.limb = limb}); !made)
+    if (Status made =
+            build(program, {"frame.glsl", "air.glsl", file}, LayerRole::base, TexelKind::pictures, {.limb = limb});
+        !made)
       return made;
   }
   return Done{};
 }
 
-Status PatchPass::build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, bool numbers,
+Status PatchPass::build(gl::Program& place, std::vector<std::string_view> fragment, LayerRole role, TexelKind kind,
                         const Extras& extras) const {
-  const PatchLight light = light_of(role, numbers);
+  const PatchLight light = light_of(role, kind);
   return build_into(place,
                     {{GL_VERTEX_SHADER, {"frame.glsl", "regolith.glsl", "air_part.glsl", "patch.vert"}},
                      {GL_FRAGMENT_SHADER, std::move(fragment)}},
@@ -148,7 +153,7 @@ Status PatchPass::build(gl::Program& place, std::vector<std::string_view> fragme
                      which() == 2 ? "NEAR_GROUND" : "FAR_FROM_GROUND",
                      functions_define(options_.functions.value_or(ShaderFunctions::driver)),
                      kRoleDefines[static_cast<int>(role)],
-                     numbers ? "NUMBERS" : "PICTURES",
+                     kKindDefines[static_cast<int>(kind)],
                      kStackDefines[extras.stack],
                      extras.ground != 0 ? "ON_GROUND" : "OFF_GROUND",
                      (extras.ground & 1U) != 0 || extras.ground == kMoreLines ? "AREAS" : "NO_AREAS",
@@ -190,7 +195,7 @@ Status PatchPass::make_stack_program(gl::Program& place, const StackProgram& pro
   }
   files.emplace_back(texts.emplace_back(stack_main(program)));
   return build(place, std::move(files), program.base ? LayerRole::base : LayerRole::upper,
-               program.base && slots[0].numbers, extras);
+               program.base && slots[0].numbers ? TexelKind::numbers : TexelKind::pictures, extras);
 }
 
 // Coordinates that are computed per fragment need functions of enough accuracy.
@@ -202,7 +207,7 @@ Status PatchPass::choose_functions() {
   return Done{};
 }
 
-Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, bool numbers) {
+Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, TexelKind kind) {
   const int which = variant / 2;
   Extras extras{.city_lights = variant % 2 == 1, .limb = which >= PatchLayer::limb};
   extras.pole = is_polar(which);
@@ -217,7 +222,7 @@ Status PatchPass::make_program(gl::Program& place, int variant, LayerRole role, 
     files.emplace_back("magnify.glsl");
   }
   files.emplace_back(kFiles[which]);
-  return build(place, std::move(files), role, numbers, extras);
+  return build(place, std::move(files), role, kind, extras);
 }
 
 }  // namespace terrella
