@@ -121,7 +121,7 @@ bool needs_statistics(const NumberOptions& options) {
 Status check_colormap(const std::string& text) {
   std::error_code ignored;
   if (named_map(text) || std::filesystem::exists(text, ignored)) return Done{};
-  return Error{fmt::format("{} is neither one of {} nor a file; :CENTRE goes with terrain and diverging",
+  return Error{fmt::format("{} is neither one of {}, aspect nor a file; :CENTRE goes with terrain and diverging",
                            in_quotes(text), fmt::join(color_map_names(), ", "))};
 }
 

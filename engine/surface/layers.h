@@ -83,6 +83,7 @@ struct ImageLook {
   double height_m = 0.0;
   SwipeSide swipe = SwipeSide::both;
   LayerClock clock = LayerClock::own;  ///< without a time of the globe, or without instants, as own
+  /// Plain colour that shows below through holes of the lowest layer counts as a layer's colour, too.
   /// The lowest layer that is drawn is always `normal`, and a layer with a height must be. Unlit numbers, and a layer
   /// directly over them, blend with the colours in the picture instead, and are not lit.
   LayerBlend blend = LayerBlend::normal;

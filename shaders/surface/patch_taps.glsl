@@ -88,7 +88,7 @@ vec4 with_lines(vec4 color, float steps) {
   return mix(color, ink, 0.75 * cover);
 }
 
-// Colour of a mean; clear if less than half of the weight has data, or no direction.
+// Colour of a mean; clear if less than half of the weight has data. A direction is clear where no texel has one.
 Imagery seen(vec2 mean) {
 #if defined(DIRECTIONS)
   float angle = atan(mean.x, mean.y);

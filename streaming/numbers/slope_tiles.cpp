@@ -22,6 +22,10 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kMostKept = 64;  // decoded tiles, for the rims of their neighbours
 
 using Tile = std::shared_ptr<const std::vector<float>>;
+using ReadTile = Result<Tile, TileFailure>;
+
+/// The tiles around one, and why some are not there: each is read once.
+using Neighbours = std::vector<std::pair<TileId, ReadTile>>;
 
 /// Metres of a texel's sides.
 struct TexelSize {
@@ -63,9 +67,10 @@ class SlopeTiles : public TileSource {
   [[nodiscard]] std::optional<std::int64_t> count_tiles(int level) override { return heights_->count_tiles(level); }
 
  private:
-  [[nodiscard]] Result<Tile, TileFailure> heights_m(const TileId& id, const std::stop_token& stop);
+  [[nodiscard]] ReadTile heights_m(const TileId& id, const std::stop_token& stop);
+  [[nodiscard]] ReadTile neighbour(const TileId& id, Neighbours& neighbours, const std::stop_token& stop);
   [[nodiscard]] Result<std::vector<float>, TileFailure> row_beside(const TileId& id, std::int64_t row,
-                                                                   const std::stop_token& stop);
+                                                                   Neighbours& neighbours, const std::stop_token& stop);
   [[nodiscard]] TexelSize size_at(const TileId& id, std::int64_t row) const;
 
   std::shared_ptr<TileSource> heights_;
@@ -78,7 +83,7 @@ class SlopeTiles : public TileSource {
   std::uint64_t kept_edition_ = 0;
 };
 
-Result<Tile, TileFailure> SlopeTiles::heights_m(const TileId& id, const std::stop_token& stop) {
+ReadTile SlopeTiles::heights_m(const TileId& id, const std::stop_token& stop) {
   const std::uint64_t edition = heights_->edition();
   {
     const std::lock_guard lock(mutex_);
@@ -103,10 +108,18 @@ Result<Tile, TileFailure> SlopeTiles::heights_m(const TileId& id, const std::sto
   return Tile(std::move(tile));
 }
 
+ReadTile SlopeTiles::neighbour(const TileId& id, Neighbours& neighbours, const std::stop_token& stop) {
+  const auto known = std::ranges::find(neighbours, id, &Neighbours::value_type::first);
+  if (known != neighbours.end()) return known->second;
+  ReadTile read = exists(info_.grid, id) ? heights_m(id, stop) : ReadTile(Tile());
+  neighbours.emplace_back(id, read);
+  return read;
+}
+
 // The heights of a row of the level at the middles of a tile's columns, and one more at each end. Rows near a pole may
 // have texels of another width, between which heights are interpolated.
 Result<std::vector<float>, TileFailure> SlopeTiles::row_beside(const TileId& id, std::int64_t row,
-                                                               const std::stop_token& stop) {
+                                                               Neighbours& neighbours, const std::stop_token& stop) {
   const TileGrid& grid = info_.grid;
   const std::int64_t px = grid.tile_px, y = row >= 0 ? row / px : -1;
   std::vector<float> found(static_cast<std::size_t>(px) + 2, kUnknown);
@@ -122,7 +135,7 @@ Result<std::vector<float>, TileFailure> SlopeTiles::row_beside(const TileId& id,
     const TileId there{.level = id.level, .x = column / px, .y = y, .squeeze = squeeze};
     if (there != last) {
       last = there;
-      auto read = exists(grid, there) ? heights_m(there, stop) : Result<Tile, TileFailure>(Tile());
+      ReadTile read = neighbour(there, neighbours, stop);
       if (!read && read.error().kind == MissingKind::failed) failed = read.error();
       tile = read ? *std::move(read) : nullptr;
     }
@@ -157,8 +170,9 @@ Result<EncodedTile, TileFailure> SlopeTiles::read_or_stop(const TileId& id, cons
   auto made = std::make_shared<Numbers>(Numbers{info_.grid.tile_px, info_.grid.tile_px, {}});
   made->values.reserve(side * side);
   std::array<std::vector<float>, 3> around;
+  Neighbours neighbours;
   for (std::int64_t row = first - 1; row <= first + px; ++row) {
-    auto next = row_beside(id, row, stop);
+    auto next = row_beside(id, row, neighbours, stop);
     if (!next) return next.error();
     std::ranges::rotate(around, around.begin() + 1);
     around[2] = *std::move(next);

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/viewer/panels/panel_items.h"
 
@@ -85,8 +87,9 @@ void draw_histogram(const NumberStatistics& statistics, NumberLook& look) {
 
 void draw_map_choice(NumberFacts& facts, NumberLook& look) {
   if (!ImGui::BeginCombo("Colours", facts.colormap.c_str())) return;
-  for (const std::string_view name : color_map_names()) {
-    const std::string text(name);
+  std::vector<std::string> names(color_map_names().begin(), color_map_names().end());
+  if (facts.quantity == "aspect") names.emplace_back("aspect");
+  for (const std::string& text : names) {
     if (!ImGui::Selectable(text.c_str(), facts.colormap == text) || facts.colormap == text) continue;
     const auto made = look_of(text, {.low = look.low, .high = look.high}, true, NumberStatistics{});
     if (!made) continue;
