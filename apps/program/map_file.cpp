@@ -216,7 +216,9 @@ Result<std::shared_ptr<TileSource>> tiles_of(const SceneLayer& layer, const Imag
   const auto& steps = layer.tiles->info().steps;
   if (look.clock == LayerClock::own || !time || !steps) return layer.tiles;
   if (!steps->at_or_before(*time)) return std::shared_ptr<TileSource>();
-  return layer.tiles->at_time(*time);
+  auto tiles = layer.tiles->at_time(*time);
+  if (!tiles) return tiles.error();
+  return std::shared_ptr<TileSource>(*std::move(tiles));
 }
 
 Result<std::vector<MapLayer>> layers_of(const OpenedScene& scene, const FlatMap& map) {

@@ -447,18 +447,18 @@ std::vector<std::string> ScenePicture::Parts::missing_dates() const {
   std::vector<std::string> sentences;
   for (const SceneLayer& image : scene.images) {
     const auto look = globe.look(image.id);
-    const auto shown = globe.layer_time(image.id);
+    const auto layer = globe.layer_time(image.id);
     const auto steps = image.tiles ? image.tiles->info().steps : nullptr;
-    if (!look || !shown || look->clock == LayerClock::own || !steps || !time) continue;
+    if (!look || !layer || look->clock == LayerClock::own || !steps || !time) continue;
     const std::optional<UtcTime> wanted = steps->at_or_before(*time);
-    if (!wanted || shown->shown == wanted) continue;
+    if (!wanted || layer->shown == wanted) continue;
     const auto why = std::ranges::find_if(globe.missing_instants(), [&](const MissingInstant& one) {
       return one.layer == image.id && one.instant == *wanted;
     });
     const bool has_reason = why != globe.missing_instants().end() && !why->why.empty();
     sentences.push_back(fmt::format("{}: no tile of {} in view{}; {}", image.address.redacted(), steps->text(*wanted),
                                     has_reason ? " (" + one_line(why->why) + ")" : std::string(),
-                                    shown->shown ? steps->text(*shown->shown) + " is shown" : "the layer is hidden"));
+                                    layer->shown ? steps->text(*layer->shown) + " is shown" : "the layer is hidden"));
   }
   return sentences;
 }
