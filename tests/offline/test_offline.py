@@ -228,6 +228,18 @@ class Offline(WindowTest):
         self.server.gate.set()
         wait_until("the preload's end", lambda: has_ended(child))
 
+    def test_a_view_of_the_sky_alone_is_not_kept(self):
+        self.viewer = self.start(*self.words, "--camera", "20,30,3000000,0,60")
+        self.viewer.settled()
+        self.viewer.key("l")
+        before = self.viewer.panel("Layers")[3]
+        self.click_in("Layers", ROW)
+        wait_until("the row", lambda: self.viewer.panel("Layers")[3] > before + 10)
+        self.click_in("Layers", KEEP)
+        self.viewer.settled()
+        self.viewer.save_grab(self.folder / "sky.png")
+        self.assertNotIn("Keep for offline use", self.viewer.layout.panels)
+
     def test_without_a_cache_the_window_says_what_to_do(self):
         self.viewer = self.start(*self.words[:3], "--cache", "off", "--unlit", "--camera", "20,30,3000000")
         self.viewer.settled()
