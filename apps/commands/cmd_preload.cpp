@@ -64,19 +64,6 @@ std::optional<std::chrono::seconds> refresh_age(const PreloadCommand& command) {
   return std::chrono::duration_cast<std::chrono::seconds>(*command.refresh_older_than_days * kDay);
 }
 
-/// Tells how long the hours of --between are still away, and says once that they are.
-std::function<std::chrono::seconds()> waiting_for(const DayHours& hours) {
-  return [hours, waits = false]() mutable {
-    const auto wait = wait_for(hours, since_midnight(hours, std::chrono::system_clock::now()));
-    if (wait.count() > 0 && !std::exchange(waits, true)) {
-      print_message("terrella preload: outside of --between {}; waiting {}\n", hours.text,
-                    duration_text(double(wait.count())));
-    }
-    if (wait.count() == 0) waits = false;
-    return wait;
-  };
-}
-
 PreloadOptions preload_options(const PreloadCommand& command, const PreloadSource& source) {
   PreloadOptions options;
   options.set = source.set;
@@ -84,7 +71,11 @@ PreloadOptions preload_options(const PreloadCommand& command, const PreloadSourc
   options.tile_life = source.set.tile_life.value_or(options.tile_life);
   options.missing_life = source.set.missing_life.value_or(options.missing_life);
   options.expires = source.remote;
-  if (command.between) options.closed_for = waiting_for(*command.between);
+  if (command.between) {
+    options.closed_for = [hours = *command.between] {
+      return wait_for(hours, since_midnight(hours, std::chrono::system_clock::now()));
+    };
+  }
   return options;
 }
 
@@ -288,7 +279,7 @@ Result<Brought> bring(const PreloadCommand& command, const PreloadSource& source
   const auto begun = std::chrono::steady_clock::now();
   Result<PreloadResult> result = Error{};
   {
-    PreloadProgress progress;
+    PreloadProgress progress(command.between ? command.between->text : "");
     options.progress = [&](const PreloadCounts& counts) {
       progress.show(counts);
       return !StopSignals::came();

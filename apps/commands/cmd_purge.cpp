@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <ctime>
@@ -37,6 +38,7 @@ constexpr const char* kPurgeExamples =
     "  terrella purge alps.gpkg --levels 13-15 --dry-run           count, change nothing\n"
     "  terrella purge alps.gpkg --bbox 5,43,17,49 --older-than 90\n"
     "  terrella purge june.gpkg --times 2026-06-01/2026-06-10      in june.2026-06-01.gpkg and so on\n"
+    "An area without --levels purges the tiles wholly within it; with --levels also those that reach beyond it.\n"
     "Pinned tiles are purged, too, except by --unused-for. The file's space is given back at once. What was purged can "
     "be preloaded again.";
 
@@ -59,7 +61,8 @@ Status check_purge(const PurgeCommand& command) {
   if (Status together = check_area(command.area); !together) return together;
   const bool some = !command.area.is_planet() || command.area.levels || command.older_than_days ||
                     command.unused_for_days || !command.times.empty();
-  if (some == command.all) {
+  if (some && command.all) return Error{"--all purges every tile; omit it, or what else says which tiles"};
+  if (!some && !command.all) {
     return Error{
         "state what to purge: an area, --levels, --times, --older-than or --unused-for; or --all, for every tile"};
   }
@@ -71,7 +74,7 @@ Result<std::vector<std::string>> files_of_times(const std::string& cache, const 
   const fs::path path(cache);
   const fs::path pattern = path.parent_path() / (path.stem().string() + ".{time}" + path.extension().string());
   const auto files = find_dated_files(pattern);
-  if (!files) return files.error();
+  if (!files) return Error{files.error().message + "; name the cache as preload -o did"};
   std::vector<std::string> there;
   there.reserve(files->size());
   for (const DatedFile& file : *files) there.push_back(file.time);
@@ -79,13 +82,14 @@ Result<std::vector<std::string>> files_of_times(const std::string& cache, const 
   const auto steps =
       TimeSteps::parse(there, std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now()));
   if (!steps) return Error{pattern.string() + ": " + steps.error().message};
-  const auto instants = preload_instants(times, *steps);
+  const auto instants = named_instants(times, *steps);
   if (!instants) return Error{cache + ": " + instants.error().message};
   std::vector<std::string> wanted;
   for (const DatedFile& file : *files) {
     const auto named = read_named_time(file.time);
     if (named && std::ranges::binary_search(*instants, named->from)) wanted.push_back(file.file.string());
   }
+  std::ranges::sort(wanted);
   return wanted;
 }
 
@@ -110,8 +114,12 @@ Result<PurgeSummary> purge_one(const PurgeCommand& command, const std::string& c
                    ": holds parts of one file, not tiles of places; purge it by --older-than, --unused-for or "
                    "--all"};
     }
-    auto planned = plan_area(command.area, report->info, cache);
+    const TileRule rule = command.area.levels ? TileRule::overlapping : TileRule::inside;
+    auto planned = plan_area(command.area, report->info, cache, rule);
     if (!planned) return planned.error();
+    if ((*planned)->total() == 0) {
+      return Error{cache + ": no tile lies wholly within the area; with --levels those that reach beyond it go, too"};
+    }
     plan = *std::move(planned);
     feed = plan->walk();
     wish.next_places = [&feed]() -> std::optional<PurgeRun> {
@@ -172,8 +180,13 @@ int run_purge(const PurgeCommand& command) {
     }
     all.push_back({cache, *summary});
     if (!command.json) print_result("{}", purge_text(all.back(), command.dry_run));
+    if (summary->fault) {
+      code = fail("purge", summary->fault->message);
+      break;
+    }
     if (summary->stopped) {
-      print_message("terrella purge: stopped in {}; the same command goes on where this one ended\n", cache);
+      print_message("terrella purge: stopped in {}; the same command {}\n", cache,
+                    command.dry_run ? "counts anew" : "goes on where this one ended");
       code = kDoneInPart;
       break;
     }

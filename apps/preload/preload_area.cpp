@@ -126,7 +126,7 @@ Result<LevelRange> levels_of(const PreloadArea& area, const TileGrid& grid, cons
 }
 
 Result<std::shared_ptr<const TilePlan>> plan_area(const PreloadArea& area, const TileSetInfo& info,
-                                                  const std::string& name) {
+                                                  const std::string& name, TileRule rule) {
   const auto body = info.body.empty() ? Result<Body>(earth()) : parse_body(info.body);
   if (!body) return body.error();
   const auto levels = levels_of(area, info.grid, name);
@@ -143,8 +143,8 @@ Result<std::shared_ptr<const TilePlan>> plan_area(const PreloadArea& area, const
     return projected ? projected->span_deg(level) : tile_span_deg(info.grid, level);
   };
   if (const Status few = check_edges(*region, span_deg, *levels, info.grid.min_level); !few) return few.error();
-  return std::shared_ptr<const TilePlan>(
-      plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first, levels->last, std::move(projected)));
+  return std::shared_ptr<const TilePlan>(plan_region(info.grid, body->ellipsoid, *std::move(region), levels->first,
+                                                     levels->last, std::move(projected), rule));
 }
 
 }  // namespace terrella

@@ -36,8 +36,10 @@ void add_area_options(CLI::App& app, PreloadArea& area);
 
 /// The levels of a set that the area asks for. `name` of the set begins the error.
 [[nodiscard]] Result<LevelRange> levels_of(const PreloadArea& area, const TileGrid& grid, const std::string& name);
-/// The tiles of a set in the area. Reads the GeoJSON files; an error names the file, or the set. thread: main
+/// The tiles of a set that touch the area, or lie inside it. Reads the GeoJSON files; an error names the file, or the
+/// set. thread: main
 [[nodiscard]] Result<std::shared_ptr<const TilePlan>> plan_area(const PreloadArea& area, const TileSetInfo& info,
-                                                                const std::string& name);
+                                                                const std::string& name,
+                                                                TileRule rule = TileRule::overlapping);
 
 }  // namespace terrella

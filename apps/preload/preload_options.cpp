@@ -47,7 +47,8 @@ void add_network_options(CLI::App& app, PreloadCommand& command) {
   app.add_option_function<std::string>(
          "--between",
          [&command](const std::string& text) { command.between = parsed_or_throw("--between", parse_day_hours(text)); },
-         "Request tiles only in this part of each day, and wait outside of it: local time, or UTC as 22:00-06:00Z")
+         "Request tiles only in this part of each day, and wait outside of it: local time, or UTC as 22:00-06:00Z. The "
+         "source's description and the sample for --cache-size are requested at once")
       ->type_name("HH:MM-HH:MM[Z]");
   add_timeout_option(app, command.timeout_s, "Wait at most this many seconds for a server until the tiles are planned");
   app.add_option_function<int>(

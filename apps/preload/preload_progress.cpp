@@ -6,18 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "apps/process/console.h"
 
 namespace terrella {
 
-PreloadProgress::PreloadProgress() : terminal_(isatty(STDERR_FILENO) == 1) {}
+PreloadProgress::PreloadProgress(std::string hours) : hours_(std::move(hours)), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 PreloadProgress::~PreloadProgress() {
   if (line_open_) fmt::print(stderr, "\n");
 }
 
 void PreloadProgress::show(const PreloadCounts& counts) {
+  const bool waits = counts.waits.count() > 0;
+  if (waits && !std::exchange(told_wait_, true) && (!terminal_ || CapturedConsole::active())) {
+    print_message("terrella preload: {}\n", wait_text(counts));
+  }
+  if (!waits) told_wait_ = false;
   if (CapturedConsole::active()) return;
   const auto now = Clock::now();
   measure(counts, now);
@@ -28,6 +34,7 @@ void PreloadProgress::show(const PreloadCounts& counts) {
     line_open_ = true;
     return;
   }
+  if (waits) return;
   // The first line comes after 1 s, later lines at most every 2 s, with at most twenty lines per tenfold time.
   const auto between = std::max<Clock::duration>(std::chrono::seconds(2), (now - begun_) / 10);
   if (now - begun_ < std::chrono::seconds(1) || (told_ != begun_ && now - told_ < between)) return;
@@ -40,8 +47,8 @@ void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now
   constexpr double kSmoothing_s = 5.0;
   const double seconds = std::chrono::duration<double>(now - measured_).count();
   if (seconds <= 0.0) return;
-  // A lock says nothing about the rate.
-  if (counts.locked) {
+  // A lock or a wait says nothing about the rate.
+  if (counts.locked || counts.waits.count() > 0) {
     measured_ = now;
     return;
   }
@@ -55,6 +62,10 @@ void PreloadProgress::measure(const PreloadCounts& counts, Clock::time_point now
   measured_ = now;
 }
 
+std::string PreloadProgress::wait_text(const PreloadCounts& counts) const {
+  return fmt::format("outside of --between {}; waiting {}", hours_, duration_text(double(counts.waits.count())));
+}
+
 std::string PreloadProgress::line(const PreloadCounts& counts) const {
   const double part =
       counts.planned > 0 ? static_cast<double>(counts.passed) / static_cast<double>(counts.planned) : 1.0;
@@ -62,6 +73,7 @@ std::string PreloadProgress::line(const PreloadCounts& counts) const {
                                  counts.stored, bytes_text(static_cast<double>(counts.stored_bytes)), counts.there);
   if (counts.missing() > 0) text += fmt::format(", {} missing", counts.missing());
   if (counts.locked) return text + "; the cache is locked by another program, waiting for it";
+  if (counts.waits.count() > 0) return text + "; " + wait_text(counts);
   const double tiles_per_s = weight_seen_ > 0.0 ? tiles_seen_ / weight_seen_ : 0.0;
   if (tiles_per_s >= 0.05) {
     text += fmt::format("; {:.0f} tiles/s, {} left", tiles_per_s,

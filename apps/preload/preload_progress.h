@@ -8,10 +8,12 @@
 namespace terrella {
 
 /// Shows a preload's progress on standard error: one line redrawn on a terminal, else plain lines that become rarer
-/// with time. Each line has the recent rate and the remaining time at that rate. thread: one at a time
+/// with time. A wait for the hours is told once, or stands in the redrawn line. Each line has the recent rate and the
+/// remaining time at that rate. thread: one at a time
 class PreloadProgress {
  public:
-  PreloadProgress();
+  /// `hours`: a text for the time when requests may be sent; empty: always.
+  explicit PreloadProgress(std::string hours = {});
   ~PreloadProgress();  ///< ends the terminal's line
   PreloadProgress(const PreloadProgress&) = delete;
   PreloadProgress& operator=(const PreloadProgress&) = delete;
@@ -21,10 +23,13 @@ class PreloadProgress {
  private:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] std::string wait_text(const PreloadCounts& counts) const;
   [[nodiscard]] std::string line(const PreloadCounts& counts) const;
   void measure(const PreloadCounts& counts, Clock::time_point now);
 
+  const std::string hours_;
   bool terminal_;
+  bool told_wait_ = false;
   bool line_open_ = false;
   Clock::time_point begun_ = Clock::now();
   Clock::time_point measured_ = begun_;

@@ -50,6 +50,13 @@ class StepList {
     }
     return Done{};
   }
+  Status add_members(const TimeSteps& instants) {
+    for (std::optional<UtcTime> step = steps_.first(); step; step = steps_.after(*step)) {
+      if (instants.at_or_before(*step) != step) continue;
+      if (Status added = add(*step); !added) return added;
+    }
+    return Done{};
+  }
   Status add_instants(const TimeSteps& instants) {
     for (std::optional<UtcTime> time = instants.first(); time;) {
       const auto step = steps_.at_or_before(*time);
@@ -78,8 +85,13 @@ class StepList {
   std::set<UtcTime> found_;
 };
 
-Status add_value(const std::string& value, StepList& list) {
+enum class StepRule { last_before, named };
+
+Status add_value(const std::string& value, StepList& list, StepRule rule) {
   const UtcTime now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  if (const auto named = read_named_time(value); named && rule == StepRule::named) {
+    return list.add_span(*named, *named);
+  }
   if (const auto span = read_span(value, now)) {
     if (span->second.from < span->first.from) {
       return Error{fmt::format("--times: {} ends before it begins", in_quotes(value))};
@@ -88,7 +100,7 @@ Status add_value(const std::string& value, StepList& list) {
   }
   const auto read = TimeSteps::parse(std::span(&value, 1), now);
   if (!read) return Error{"--times: " + read.error().message};
-  return list.add_instants(*read);
+  return rule == StepRule::named ? list.add_members(*read) : list.add_instants(*read);
 }
 
 }  // namespace
@@ -96,10 +108,23 @@ Status add_value(const std::string& value, StepList& list) {
 Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& values, const TimeSteps& steps) {
   StepList list(steps);
   for (const std::string& value : values) {
-    if (Status added = add_value(value, list); !added) return added.error();
+    if (Status added = add_value(value, list, StepRule::last_before); !added) return added.error();
   }
   if (list.all().empty()) {
     return Error{fmt::format("--times: the source has no time there; its times: {}", steps.summary())};
+  }
+  return list.all();
+}
+
+Result<std::vector<UtcTime>> named_instants(const std::vector<std::string>& values, const TimeSteps& steps) {
+  StepList list(steps);
+  for (const std::string& value : values) {
+    StepList one(steps);
+    if (Status added = add_value(value, one, StepRule::named); !added) return added.error();
+    if (one.all().empty()) {
+      return Error{fmt::format("--times: there is nothing of {}; there is {}", in_quotes(value), steps.summary())};
+    }
+    if (Status added = add_value(value, list, StepRule::named); !added) return added.error();
   }
   return list.all();
 }

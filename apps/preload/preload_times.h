@@ -20,6 +20,11 @@ inline constexpr std::size_t kMostPreloadTimes = 10000;
 [[nodiscard]] Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& values,
                                                             const TimeSteps& steps);
 
+/// Lists the steps that values of --times name themselves: those within a named moment, day or month, within A/B, and
+/// the instants of A/B/PERIOD. The error names a value without any. thread: any
+[[nodiscard]] Result<std::vector<UtcTime>> named_instants(const std::vector<std::string>& values,
+                                                          const TimeSteps& steps);
+
 /// The source at one of its instants. thread: any
 [[nodiscard]] Result<PreloadSource> source_at(const PreloadSource& source, UtcTime instant, const HttpOptions& http);
 

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 
 namespace terrella {
 namespace {
@@ -19,6 +21,9 @@ void add_file(posix_spawn_file_actions_t& files, int to, int from, int access) {
   }
 }
 
+/// Names the process whose end ends this one, too.
+constexpr const char* kParentVariable = "TERRELLA_PARENT";
+
 }  // namespace
 
 int start_child(const ChildProgram& child, pid_t& pid) {
@@ -27,6 +32,12 @@ int start_child(const ChildProgram& child, pid_t& pid) {
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  std::string parent = std::string(kParentVariable) + "=" + std::to_string(getpid());
+  std::vector<char*> variables;
+  for (char** variable = environ; child.ends_with_parent && *variable != nullptr; ++variable) {
+    variables.push_back(*variable);
+  }
+  variables.insert(variables.end(), {parent.data(), nullptr});
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   add_file(files, STDIN_FILENO, child.input, O_RDONLY);
@@ -40,10 +51,17 @@ int start_child(const ChildProgram& child, pid_t& pid) {
   posix_spawnattr_setsigdefault(&how, &usual);
   const unsigned session = child.own_session ? POSIX_SPAWN_SETSID : 0;
   posix_spawnattr_setflags(&how, static_cast<short>(POSIX_SPAWN_SETSIGDEF | session));
-  const int refused = posix_spawnp(&pid, child.program.c_str(), &files, &how, arguments.data(), environ);
+  const int refused = posix_spawnp(&pid, child.program.c_str(), &files, &how, arguments.data(),
+                                   child.ends_with_parent ? variables.data() : environ);
   posix_spawnattr_destroy(&how);
   posix_spawn_file_actions_destroy(&files);
   return refused;
+}
+
+void end_with_parent() {
+  const char* parent = std::getenv(kParentVariable);
+  if (parent != nullptr && parent == std::to_string(getppid())) prctl(PR_SET_PDEATHSIG, SIGTERM);
+  unsetenv(kParentVariable);
 }
 
 bool has_child_ended(pid_t pid) {

@@ -16,6 +16,7 @@
 #include <new>
 #include <system_error>
 
+#include "apps/process/child_process.h"
 #include "streaming/file_bytes.h"
 
 namespace terrella {
@@ -54,6 +55,7 @@ void open_standard_streams() {
 }  // namespace
 
 void prepare_process() {
+  end_with_parent();
   open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(on_terminate);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -16,10 +17,11 @@ namespace terrella {
 class ProgramJob {
  public:
   /// Starts `terrella` with these arguments. `log` gets the command and then its messages, `result` its output; an
-  /// empty path takes no output. The error is the reason alone.
+  /// empty path takes no output. `input` comes from memory, for secrets. The error is the reason alone.
   [[nodiscard]] static Result<std::unique_ptr<ProgramJob>> start(std::vector<std::string> arguments,
                                                                  const std::filesystem::path& log,
-                                                                 const std::filesystem::path& result = {});
+                                                                 const std::filesystem::path& result = {},
+                                                                 std::string_view input = {});
   ~ProgramJob();  ///< stops the process, if it still runs, and waits for its end
   ProgramJob(const ProgramJob&) = delete;
   ProgramJob& operator=(const ProgramJob&) = delete;
@@ -28,7 +30,7 @@ class ProgramJob {
   void abort();  ///< ends a process that leaves nothing half done
   [[nodiscard]] bool is_stopped() const { return stopped_; }
   [[nodiscard]] bool has_ended() const;
-  /// Waits for the end. Returns the exit code; -1: a signal ended the process.
+  /// Waits for the end. Returns the exit code, or the number of the signal that ended the process, below 0.
   [[nodiscard]] int exit_code();
   /// The lines of the log; the first is the command.
   [[nodiscard]] std::vector<std::string> messages() const;

@@ -34,11 +34,13 @@ struct PurgeSummary {
   std::uintmax_t file_bytes_before = 0;  ///< size of the file
   std::uintmax_t file_bytes = 0;         ///< size afterwards; the same for a dry run
   bool stopped = false;                  ///< the rest is still there
+  std::optional<Error> fault{};          ///< ended the purge; the rest is still there
 };
 
 /// Removes records from a cache, pinned tiles too, and gives the file's space back (incremental_vacuum). Other programs
-/// may use the cache meanwhile. After an error or a stop the cache is sound, and the same purge goes on. A file that is
-/// no cache is refused and stays unchanged; the error contains the path. thread: any
+/// may use the cache meanwhile: a step takes the file only if it has something to remove. After a fault or a stop the
+/// cache is sound, and the same purge goes on. A file that is no cache is refused and stays unchanged; the error
+/// contains the path. thread: any
 [[nodiscard]] Result<PurgeSummary> purge_cache(const std::filesystem::path& path, const PurgeWish& wish);
 
 }  // namespace terrella

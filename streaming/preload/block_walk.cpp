@@ -32,12 +32,13 @@ TileSpan side(std::int64_t number, int shift) { return {number << shift, ((numbe
 }  // namespace
 
 BlockWalk::BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level,
-                     const ProjectedPlaces* projected)
+                     const ProjectedPlaces* projected, TileRule rule)
     : grid_(grid),
       ellipsoid_(ellipsoid),
       region_(region),
       level_(level),
       projected_(projected),
+      rule_(rule),
       sliver_deg_(kSliverTiles * tile_span_deg(grid, grid.max_level)),
       places_(projected == nullptr ? tile_places(grid, level) : projected->places(level)) {
   const auto longest = static_cast<std::uint64_t>(std::max(columns(grid, level), rows(grid, level)));
@@ -66,7 +67,7 @@ void BlockWalk::visit(const Node& node, const View& outer) {
   const Overlap overlap = overlap_of(node, outer);
   if (overlap == Overlap::outside) return;
   if (overlap == Overlap::inside || node.shift == 0) {
-    add_blocks(node);
+    if (overlap == Overlap::inside || rule_ == TileRule::overlapping) add_blocks(node);
     return;
   }
   way_.push_back({node, 0, seen_});

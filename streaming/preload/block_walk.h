@@ -21,13 +21,19 @@ struct TileBlock {
   [[nodiscard]] std::int64_t count() const { return (columns.last - columns.first + 1) * (rows.last - rows.first + 1); }
 };
 
-/// Lists the tiles of a level that overlap a region, as blocks. Walks down a quadtree whose root covers the whole
+/// Tiles that belong to a region.
+enum class TileRule {
+  overlapping,
+  inside,  ///< those that reach nowhere beyond it
+};
+
+/// Lists the tiles of a level that belong to a region, as blocks. Walks down a quadtree whose root covers the whole
 /// level, and stores only the current path. Grid, ellipsoid and region must outlive the walk, as must `projected`, the
 /// places of a `projected` grid; null for other grids. thread: one at a time
 class BlockWalk {
  public:
   BlockWalk(const TileGrid& grid, const Ellipsoid& ellipsoid, const Region& region, int level,
-            const ProjectedPlaces* projected = nullptr);
+            const ProjectedPlaces* projected = nullptr, TileRule rule = TileRule::overlapping);
   [[nodiscard]] std::optional<TileBlock> next();
 
  private:
@@ -60,6 +66,7 @@ class BlockWalk {
   const Region& region_;
   int level_;
   const ProjectedPlaces* projected_;
+  TileRule rule_;
   double sliver_deg_;
   TilePlaces places_;
   std::vector<Opened> way_;

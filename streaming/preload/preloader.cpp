@@ -62,14 +62,14 @@ class Run {
   Status first_pass() {
     while (going()) {
       const bool open = is_open();
-      for (int n = 0; open && n < kTilesAtATime && asked_.size() < options_.window && !wanted_.done(); ++n) {
+      for (int n = 0; n < kTilesAtATime && has_window() && !wanted_.done(); ++n) {
         auto next = wanted_.next();
         if (!next) return next.error();
         if (!*next) break;
-        ask(**next);
+        open ? ask(**std::move(next)) : put_off_.push_back(**std::move(next));
       }
       if (asked_.empty() && put_off_.empty() && wanted_.done()) return Done{};
-      const bool looking = open && !wanted_.done() && asked_.size() < options_.window;
+      const bool looking = !wanted_.done() && has_window();
       take_answers(looking ? milliseconds(0) : longest_wait(open));
     }
     return Done{};
@@ -94,15 +94,15 @@ class Run {
 
   /// True if requests may be sent. Otherwise takes back those that wait to be sent, and asks again later.
   bool is_open() {
-    if (options_.closed_for && options_.closed_for().count() > 0) {
+    closed_ = options_.closed_for ? options_.closed_for() : std::chrono::seconds(0);
+    if (closed_.count() > 0) {
       withdraw_waiting();
       return false;
     }
-    for (const Asked& asked : std::exchange(put_off_, {})) {
-      ask({.id = asked.id, .have = asked.have, .etag = {}, .last_modified = {}});
-    }
+    for (WantedTileRecord& wanted : std::exchange(put_off_, {})) ask(std::move(wanted));
     return true;
   }
+  [[nodiscard]] bool has_window() const { return asked_.size() + put_off_.size() < options_.window; }
 
   [[nodiscard]] milliseconds longest_wait(bool open) const { return open ? kLongestWait : kBetweenReports; }
 
@@ -111,7 +111,7 @@ class Run {
     for (std::size_t waiting = origin_->counts().waiting; waiting > 0 && !asked_.empty(); --waiting) {
       const auto latest = std::prev(asked_.end());
       origin_->withdraw(latest->first);
-      put_off_.push_back(latest->second);
+      put_off_.push_back(std::move(latest->second));
       asked_.erase(latest);
     }
   }
@@ -131,8 +131,8 @@ class Run {
   void ask(WantedTileRecord wanted) {
     if (tally_->out_of_room() && !wanted.have) return note_missing(wanted.id, PreloadMissing::no_room, kNoRoom);
     const std::uint64_t number = ++last_number_;
-    asked_.emplace(number, Asked{wanted.id, wanted.have});
-    origin_->ask({number, wanted.id, std::move(wanted.etag), std::move(wanted.last_modified)});
+    origin_->ask({number, wanted.id, wanted.etag, wanted.last_modified});
+    asked_.emplace(number, std::move(wanted));
   }
 
   void note_tiles_without_room() {
@@ -144,7 +144,7 @@ class Run {
     for (HttpReply& reply : answers_.take_all(longest)) {
       const auto asked = asked_.find(reply.id);
       if (asked == asked_.end()) continue;
-      const Asked about = asked->second;
+      const Asked about{asked->second.id, asked->second.have};
       asked_.erase(asked);
       failures_in_a_row_ = reply.outcome == HttpOutcome::failed ? failures_in_a_row_ + 1 : 0;
       settle(about, std::move(reply));
@@ -222,6 +222,7 @@ class Run {
 
   // Waits for answers that the host has begun.
   void wind_down() {
+    closed_ = std::chrono::seconds(0);
     withdraw_waiting();
     const auto deadline = Clock::now() + options_.finish_within;
     while (!asked_.empty() && Clock::now() < deadline && !tally_->failed()) take_answers(kLongestWait);
@@ -235,6 +236,7 @@ class Run {
     counts.absent = tally_->durable(StoreTally::Kind::absent);
     counts.blank = tally_->durable(StoreTally::Kind::blank);
     counts.kept = tally_->durable(StoreTally::Kind::kept);
+    if (second_ || !put_off_.empty()) counts.waits = closed_;
     counts.locked = cache_.counts().locked;
     counts.stored_bytes = tally_->bytes();
     counts.passed =
@@ -250,8 +252,9 @@ class Run {
   WantedTiles wanted_;
   std::shared_ptr<StoreTally> tally_;
   ReplyQueue answers_{kAnswersAtATime};
-  std::map<std::uint64_t, Asked> asked_;  ///< by number: in the order of asking
-  std::vector<Asked> put_off_;            ///< withdrawn until requests may be sent
+  std::map<std::uint64_t, WantedTileRecord> asked_;  ///< by number: in the order of asking
+  std::vector<WantedTileRecord> put_off_;            ///< wait until requests may be sent
+  std::chrono::seconds closed_{0};                   ///< time until then
   std::vector<std::pair<Asked, std::string>> failed_;
   PreloadCounts counts_;
   mutable HttpCounts last_asked_;

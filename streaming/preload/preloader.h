@@ -36,7 +36,8 @@ struct PreloadCounts {
   std::int64_t broken = 0, refused = 0, failed = 0, no_room = 0;  ///< see PreloadMissing
   std::uint64_t stored_bytes = 0;
   HttpCounts asked;
-  bool locked = false;  ///< another program holds the cache file and blocks writing for now
+  std::chrono::seconds waits{0};  ///< until requests may be sent, if there are some to send; else 0
+  bool locked = false;            ///< another program holds the cache file and blocks writing for now
   [[nodiscard]] std::int64_t missing() const { return broken + refused + failed + no_room; }
 };
 

@@ -12,8 +12,8 @@ namespace {
 class RegionPlan : public TilePlan {
  public:
   RegionPlan(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region, TileSpan levels,
-             std::shared_ptr<const ProjectedPlaces> projected)
-      : grid_(grid), ellipsoid_(ellipsoid), region_(std::move(region)), projected_(std::move(projected)) {
+             std::shared_ptr<const ProjectedPlaces> projected, TileRule rule)
+      : grid_(grid), ellipsoid_(ellipsoid), region_(std::move(region)), projected_(std::move(projected)), rule_(rule) {
     for (auto level = static_cast<int>(levels.first); level <= levels.last; ++level) {
       BlockWalk walk = blocks(level);
       LevelCount count{level, 0};
@@ -23,13 +23,16 @@ class RegionPlan : public TilePlan {
   }
   [[nodiscard]] const std::vector<LevelCount>& counts() const override { return counts_; }
   [[nodiscard]] std::unique_ptr<TileFeed> walk() const override;
-  [[nodiscard]] BlockWalk blocks(int level) const { return {grid_, ellipsoid_, region_, level, projected_.get()}; }
+  [[nodiscard]] BlockWalk blocks(int level) const {
+    return {grid_, ellipsoid_, region_, level, projected_.get(), rule_};
+  }
 
  private:
   TileGrid grid_;
   Ellipsoid ellipsoid_;
   Region region_;
   std::shared_ptr<const ProjectedPlaces> projected_;
+  TileRule rule_;
   std::vector<LevelCount> counts_;
 };
 
@@ -175,9 +178,9 @@ std::int64_t TilePlan::total() const {
 }
 
 std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region, int first_level,
-                                      int last_level, std::shared_ptr<const ProjectedPlaces> projected) {
+                                      int last_level, std::shared_ptr<const ProjectedPlaces> projected, TileRule rule) {
   const TileSpan levels{std::max(first_level, grid.min_level), std::min(last_level, grid.max_level)};
-  return std::make_unique<RegionPlan>(grid, ellipsoid, std::move(region), levels, std::move(projected));
+  return std::make_unique<RegionPlan>(grid, ellipsoid, std::move(region), levels, std::move(projected), rule);
 }
 
 std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles) { return std::make_unique<ListPlan>(std::move(tiles)); }

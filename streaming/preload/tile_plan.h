@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geo/ellipsoid.h"
+#include "streaming/preload/block_walk.h"
 #include "streaming/preload/region.h"
 #include "tiles/tile_grid.h"
 
@@ -47,13 +48,14 @@ class TilePlan {
   [[nodiscard]] std::int64_t total() const;
 };
 
-/// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region; an empty region is
-/// the whole planet. Only the region is kept: counting and walking go down the quadtree, and take subtrees inside the
-/// region, or pass over those outside, as a whole. `projected`: the places of a `projected` grid, whose plan may have a
-/// tile beside the region; null for other grids. thread: any
+/// All tiles of the levels [first_level, last_level] within the grid's own that overlap a region, or lie inside it; an
+/// empty region is the whole planet. Only the region is kept: counting and walking go down the quadtree, and take
+/// subtrees inside the region, or pass over those outside, as a whole. `projected`: the places of a `projected` grid,
+/// whose plan may have a tile beside the region; null for other grids. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_region(const TileGrid& grid, const Ellipsoid& ellipsoid, Region region,
                                                     int first_level, int last_level,
-                                                    std::shared_ptr<const ProjectedPlaces> projected = nullptr);
+                                                    std::shared_ptr<const ProjectedPlaces> projected = nullptr,
+                                                    TileRule rule = TileRule::overlapping);
 
 /// The tiles of a list, each once. thread: any
 [[nodiscard]] std::unique_ptr<TilePlan> plan_list(std::vector<TileId> tiles);

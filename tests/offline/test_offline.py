@@ -4,9 +4,11 @@ import contextlib
 import http.server
 import json
 import os
+import signal
 import sqlite3
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 from pathlib import Path
@@ -42,6 +44,23 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.send_header("Content-Length", str(len(body)))
             self.end_headers()
             self.wfile.write(body)
+
+
+def temporary_files():
+    return {path for path in Path(tempfile.gettempdir()).glob("terrella-??????/*") if path.is_file()}
+
+
+def catches(process, number):
+    """The program's handler serves one signal."""
+    caught = Path(f"/proc/{process}/status").read_text().split("SigCgt:")[1].split()[0]
+    return int(caught, 16) >> (number - 1) & 1 == 1
+
+
+def has_ended(process):
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
 
 
 class Offline(WindowTest):
@@ -168,6 +187,58 @@ class Offline(WindowTest):
         self.viewer.key("ctrl+q")
         self.viewer.program.wait(timeout=60)
         self.assertEqual(self.viewer.program.returncode, 0)
+
+    def start_keeping(self):
+        """A preload whose fine tiles are held back, and the number of its process."""
+        self.viewer = self.start(*self.words, "--camera", "20,30,3000000")
+        self.viewer.settled()
+        self.open_panel()
+        wait_until("the estimate", lambda: not self.children())
+        self.viewer.settled()
+        before = len(self.server.asked)
+        self.server.gate.clear()
+        self.click_in("Keep for offline use", START)
+        wait_until("its fine tiles", lambda: any(z >= FINE for z, *_ in self.server.asked[before:]))
+        found = subprocess.run(["pgrep", "-P", str(self.viewer.program.pid), "-f", "^terrella preload"], capture_output=True,
+                               text=True)
+        return int(found.stdout)
+
+    def test_a_fault_during_a_pause_is_told(self):
+        child = self.start_keeping()
+        height = self.viewer.panel("Keep for offline use")[3]
+        self.click_in("Keep for offline use", PAUSE)
+        wait_until("the pause", lambda: not catches(child, signal.SIGTERM))
+        os.kill(child, signal.SIGKILL)
+        wait_until("its end", lambda: not self.children())
+        self.server.gate.set()
+        # The panel offers the choice again, which is higher than the bar with its buttons.
+        wait_until("the choice", lambda: self.viewer.panel("Keep for offline use")[3] > height + 30)
+        self.viewer.settled(still_s=1.2)
+        self.viewer.save_grab(self.folder / "fault.png")
+
+    def test_a_window_that_is_killed_leaves_no_preload_and_no_key(self):
+        before = temporary_files()
+        child = self.start_keeping()
+        held = [path.read_text() for path in temporary_files() - before]
+        self.assertTrue(any("terrella preload" in text for text in held), "the log is elsewhere")
+        self.assertFalse(any("127.0.0.1" in text for text in held))
+        self.assertNotIn("127.0.0.1", Path(f"/proc/{child}/cmdline").read_text())
+        self.viewer.program.kill()
+        self.viewer.program.wait()
+        self.server.gate.set()
+        wait_until("the preload's end", lambda: has_ended(child))
+
+    def test_a_view_of_the_sky_alone_is_not_kept(self):
+        self.viewer = self.start(*self.words, "--camera", "20,30,3000000,0,60")
+        self.viewer.settled()
+        self.viewer.key("l")
+        before = self.viewer.panel("Layers")[3]
+        self.click_in("Layers", ROW)
+        wait_until("the row", lambda: self.viewer.panel("Layers")[3] > before + 10)
+        self.click_in("Layers", KEEP)
+        self.viewer.settled()
+        self.viewer.save_grab(self.folder / "sky.png")
+        self.assertNotIn("Keep for offline use", self.viewer.layout.panels)
 
     def test_without_a_cache_the_window_says_what_to_do(self):
         self.viewer = self.start(*self.words[:3], "--cache", "off", "--unlit", "--camera", "20,30,3000000")

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -82,6 +84,45 @@ TEST(PreloadHours, NothingIsAskedOutsideOfThemAndAllIsAskedAfterwards) {
   EXPECT_GT(looks, 20);
 }
 
+TEST(PreloadHours, WithNothingToRequestItDoesNotWait) {
+  test::ScratchFolder folder;
+  TileSetInfo info;
+  info.name = "hours";
+  info.grid.max_level = 4;
+  auto cache = TileCache::open(folder.path() / "hours.gpkg", info, "hours");
+  ASSERT_TRUE(cache);
+  const auto plan = plan_region(info.grid, Ellipsoid(6378137.0, 0.0), {}, 0, 4);
+  std::set<TileId> asked;
+  bool open = true;
+  SlowOrigin* origin = nullptr;
+  PreloadOptions options;
+  options.set.info = info;
+  options.closed_for = [&] {
+    origin->answer(1000);
+    return std::chrono::seconds(open ? 0 : 3600);
+  };
+  int reports = 0;
+  std::chrono::seconds waits{0};
+  options.progress = [&](const PreloadCounts& counts) {
+    waits = std::max(waits, counts.waits);
+    return ++reports < 50;
+  };
+  const auto make = [&](ReplyQueue& answers) {
+    auto made = std::make_unique<SlowOrigin>(answers, asked, open);
+    origin = made.get();
+    return made;
+  };
+  ASSERT_TRUE(preload(*plan, **cache, make, options));
+  open = false;
+  asked.clear();
+  const auto again = preload(*plan, **cache, make, options);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->end, PreloadEnd::complete);
+  EXPECT_EQ(again->counts.there, plan->total());
+  EXPECT_TRUE(asked.empty());
+  EXPECT_EQ(waits, std::chrono::seconds(0));
+}
+
 TEST(PreloadHours, AStopIsHeardWhileItWaits) {
   test::ScratchFolder folder;
   TileSetInfo info;
@@ -95,12 +136,17 @@ TEST(PreloadHours, AStopIsHeardWhileItWaits) {
   PreloadOptions options;
   options.set.info = info;
   options.closed_for = [] { return std::chrono::seconds(3600); };
-  options.progress = [&reports](const PreloadCounts&) { return ++reports < 3; };
+  std::chrono::seconds waits{0};
+  options.progress = [&](const PreloadCounts& counts) {
+    waits = std::max(waits, counts.waits);
+    return ++reports < 3;
+  };
   const auto result = preload(
       *plan, **cache, [&](ReplyQueue& answers) { return std::make_unique<SlowOrigin>(answers, asked, open); }, options);
   ASSERT_TRUE(result);
   EXPECT_EQ(result->end, PreloadEnd::stopped);
   EXPECT_TRUE(asked.empty());
+  EXPECT_EQ(waits, std::chrono::hours(1));
 }
 
 }  // namespace

@@ -113,6 +113,62 @@ class Purge(PurgeTest):
         self.assertEqual(done["tiles"], 2 * servers.tiles_in(2))
         self.assertEqual(len(self.stored()), servers.tiles_in(2), "of the third day")
         self.assertIn("no such file", self.purge("--times", "2026-06-01", cache=self.folder / "july.gpkg", code=FAILED))
+        self.assertIn("name the cache", self.purge("--times", "2026-06-01", cache=self.folder / "none/june.gpkg", code=FAILED))
+
+    def test_only_dated_caches_of_the_named_times_are_purged(self):
+        days = ["2026-05-31", "2026-06-01", "2026-06-03"]
+        for day in days:
+            self.cache = self.folder / f"june.{day}.gpkg"
+            self.preload(self.server.template, "--levels", "0-1")
+        june = self.folder / "june.gpkg"
+        for times, wanted in (("2026-06", days[1:]), ("2026-06-03", days[2:]), ("2026-05-30/2026-06-01T12:00", days[:2]),
+                              ("2026-05-30/2026-06-30/P2D", days[1:]), ("2026-05-31,2026-06-03", [days[0], days[2]])):
+            found = [one["cache"][-15:-5] for one in self.purge("--times", times, "--dry-run", cache=june)["caches"]]
+            # P2D begins on the 30th: 1 and 3 June are its instants, 31 May is not.
+            self.assertEqual(found, wanted, times)
+        for times in ("2026-06-10", "2026-06-02", "2026-06-01,2026-06-02", "2026-06-02/2026-06-02", "2026-06-02/2026-06-06/P2D"):
+            said = self.purge("--times", times, cache=june, code=FAILED)
+            self.assertIn("there is nothing of", said)
+            self.assertIn("2026-05-31 to 2026-06-03", said)
+        self.assertEqual(len(self.stored()), servers.tiles_in(2))
+
+    def test_an_area_keeps_the_tiles_that_reach_beyond_it(self):
+        self.preload(self.server.template, *self.words)
+        done = self.purge_as_said("--bbox=0,0,90,45")
+        # Tiles are 180° / 2^level wide; the corner tile of 90° × 45° is inside from level 2 on.
+        gone = set(servers.places(LEVELS)) - set(self.stored())
+        self.assertEqual(done["tiles"], len(gone))
+        self.assertEqual(gone, {(z, x, y) for z, x, y in servers.places(LEVELS)
+                                if 0 <= x * 180 - (180 << z) and (x + 1) * 180 - (180 << z) <= 90 << z
+                                and 45 << z <= y * 180 and (y + 1) * 180 <= 90 << z})
+        self.assertEqual({z for z, *_ in gone}, {2, 3, 4, 5})
+        self.assertIn("no tile lies wholly within", self.purge("--bbox=1,1,2,2", code=FAILED))
+        self.assertEqual(self.purge("--bbox=1,1,2,2", "--levels", "0")["tiles"], 1)
+
+    def test_a_purge_that_finds_nothing_takes_no_lock(self):
+        summary, _ = self.preload(self.server.template, "--levels", f"0-{LEVELS}", "--bbox=0,0,20,20")
+        self.assertGreater(summary["absent"], 0)
+        base = sqlite3.connect(self.cache)
+        self.addCleanup(base.close)
+        base.execute("BEGIN IMMEDIATE")
+        for words in (["--older-than", "30"], ["--older-than", "30", "--bbox=0,0,20,20"]):
+            done = self.run_program("purge", self.cache, *words, time_limit_s=50)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            self.assertIn("0 tiles", done.stdout)
+        base.rollback()
+
+    def test_many_records_are_purged_in_steps(self):
+        self.preload(self.server.template, "--levels", "0-1")
+        base = sqlite3.connect(self.cache)
+        count, places = 9000, servers.tiles_in(2)
+        base.executemany("INSERT INTO terrella_cache_absences VALUES (?, ?, ?, 'absent', '', '', '', ?, NULL)",
+                         [(9 + n % 3, n // 7, n % 7, n % 2) for n in range(count)])
+        base.commit()
+        base.close()
+        self.assertEqual(self.purge("--all", "--dry-run")["absences"], count)
+        self.assertEqual(self.purge("--older-than", "1")["absences"], count)
+        done = self.purge_as_said("--all")
+        self.assertEqual((done["tiles"], done["absences"]), (places, 0))
 
     def test_other_files_are_refused_and_stay(self):
         other = self.folder / "other.gpkg"
@@ -129,6 +185,7 @@ class Purge(PurgeTest):
         self.assertIn("no such file", self.purge("--all", code=FAILED))
         self.preload(self.server.template, "--levels", "0-1")
         self.assertIn("--all", self.purge(code=WRONG_USAGE))
+        self.assertIn("--all purges every tile", self.purge("--all", "--levels", "0", code=WRONG_USAGE))
         self.assertIn("has levels 0 to 1", self.purge("--levels", "0-7", code=FAILED))
 
 
@@ -207,6 +264,10 @@ class Hours(PurgeTest):
         # Within the hours.
         summary, said = self.preload(self.server.template, *self.words, "--between", f"{end}-{begin}Z")
         self.assertEqual(summary["stored"], ALL)
+        self.assertNotIn("outside", said)
+        # With nothing to request it does not wait.
+        summary, said = self.preload(self.server.template, *self.words, "--between", f"{begin}-{end}Z", time_limit_s=50)
+        self.assertEqual(summary["there"], ALL)
         self.assertNotIn("outside", said)
 
     def test_a_cache_in_use_is_purged_and_shrinks(self):

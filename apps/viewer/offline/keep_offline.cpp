@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -17,7 +18,6 @@
 #include "apps/viewer/offline/view_box.h"
 #include "apps/viewer/panels/panel_fonts.h"
 #include "apps/viewer/panels/panel_items.h"
-#include "apps/viewer/tools/kept_json.h"
 #include "base/number.h"
 #include "streaming/file_bytes.h"
 #include "streaming/preload/tile_plan.h"
@@ -30,7 +30,7 @@ constexpr float kKeepWidth = 23.0F;                   // in text heights
 constexpr std::int64_t kFewTiles = 256;               // chosen at first
 constexpr std::int64_t kMostEstimated = 100'000'000;  // the estimate looks for each in the cache
 constexpr std::size_t kMostAnswer = 1UL << 20;        // bytes
-constexpr const char *kKeepTask = "source.json", *kKeepLog = "preload.log", *kKeepAnswer = "answer.json";
+constexpr const char *kKeepTask = "/dev/stdin", *kKeepLog = "preload.log", *kKeepAnswer = "answer.json";
 
 /// The grid of the tiles on the server.
 const TileGrid& stored_grid(const TileSetInfo& info) { return info.made_of ? *info.made_of : info.grid; }
@@ -84,6 +84,11 @@ bool KeepOffline::take(const LayerToKeep& layer) {
     say(cache.error());
     return false;
   }
+  const auto box = shown_box();
+  if (!box) {
+    say("The view shows no part of the globe");
+    return false;
+  }
   if (folder_.empty()) {
     std::error_code failed;
     std::string name = (fs::temp_directory_path(failed) / "terrella-XXXXXX").string();
@@ -98,22 +103,20 @@ bool KeepOffline::take(const LayerToKeep& layer) {
   const std::string address = source.address.with_secrets();
   const bool is_template = address.find("{z}") != std::string::npos;
   if (is_template && !source.remote.max_level) source.remote.max_level = stored_grid(layer.info).max_level;
-  if (Status written = write_kept_text(folder_ / kKeepTask, preload_task_text(source)); !written) {
-    say(written.error());
-    return false;
-  }
+  task_ = preload_task_text(source);
   layer_ = layer;
   cache_ = *cache;
-  take_view();
+  take_box(*box);
   return true;
 }
 
+std::optional<GeoRect> KeepOffline::shown_box() const {
+  return view_box(context_.navigator.camera(), context_.globe.options().body.ellipsoid, context_.window.framebuffer());
+}
+
 // The levels at first are those of a few tiles.
-void KeepOffline::take_view() {
-  const auto box =
-      view_box(context_.navigator.camera(), context_.globe.options().body.ellipsoid, context_.window.framebuffer());
-  if (!box) return say("The view shows no part of the globe");
-  box_ = *box;
+void KeepOffline::take_box(const GeoRect& box) {
+  box_ = box;
   end_.clear();
   const TileGrid& grid = stored_grid(layer_.info);
   first_ = last_ = grid.min_level;
@@ -134,7 +137,7 @@ std::int64_t KeepOffline::tiles_to(int last) const {
 std::vector<std::string> KeepOffline::arguments() const {
   std::vector<std::string> words = {"preload",
                                     "--task",
-                                    (folder_ / kKeepTask).string(),
+                                    kKeepTask,
                                     fmt::format("--bbox={:.7f},{:.7f},{:.7f},{:.7f}", box_.west.deg(), box_.south.deg(),
                                                 box_.east.deg(), box_.north.deg()),
                                     "--levels",
@@ -157,7 +160,7 @@ void KeepOffline::estimate() {
   }
   std::vector<std::string> words = arguments();
   words.emplace_back("--dry-run");
-  auto job = ProgramJob::start(std::move(words), folder_ / kKeepLog, folder_ / kKeepAnswer);
+  auto job = ProgramJob::start(std::move(words), folder_ / kKeepLog, folder_ / kKeepAnswer, task_);
   if (!job) {
     estimate_ = {.fault = job.error().message};
     return;
@@ -182,19 +185,20 @@ void KeepOffline::take_estimate() {
 }
 
 void KeepOffline::begin() {
-  auto job = ProgramJob::start(arguments(), folder_ / kKeepLog, folder_ / kKeepAnswer);
+  auto job = ProgramJob::start(arguments(), folder_ / kKeepLog, folder_ / kKeepAnswer, task_);
   if (!job) return say(Error{"Nothing can be kept: " + job.error().message});
+  if (!paused_) part_ = 0.0;
   paused_ = cancelled_ = false;
   end_.clear();
   work_ = *std::move(job);
 }
 
-// A paused preload has ended too: the same command goes on where it ended.
+// A paused preload has ended too: the same command goes on where it ended. A young one ends by the signal itself.
 void KeepOffline::take_work() {
   if (!work_ || !work_->has_ended()) return;
   const int code = work_->exit_code();
   const std::unique_ptr<ProgramJob> ended = std::move(work_);
-  if (paused_ && code != kDone) return;
+  if (paused_ && (code == kDoneInPart || code == -SIGTERM)) return;
   paused_ = false;
   part_ = 0.0;
   const nlohmann::json answer = answer_in(folder_ / kKeepAnswer);
@@ -254,7 +258,10 @@ void KeepOffline::draw_choice() {
   write_wrapped(fmt::format("From {:.2f}, {:.2f} to {:.2f}, {:.2f}", box_.south.deg(), box_.west.deg(),
                             box_.north.deg(), box_.east.deg()),
                 true);
-  if (ImGui::Button("Take the view") || entered()) take_view();
+  if (ImGui::Button("Take the view") || entered()) {
+    const auto box = shown_box();
+    box ? take_box(*box) : say("The view shows no part of the globe");
+  }
   tip("Takes the part of the globe that the window shows now.");
   const TileGrid& grid = stored_grid(layer_.info);
   int levels[2] = {first_, last_};

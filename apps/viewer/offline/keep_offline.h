@@ -52,7 +52,8 @@ class KeepOffline : public Panel {
   void draw_choice();
   void draw_work();
   [[nodiscard]] bool take(const LayerToKeep& layer);
-  void take_view();
+  [[nodiscard]] std::optional<GeoRect> shown_box() const;
+  void take_box(const GeoRect& box);
   [[nodiscard]] std::int64_t tiles_to(int last) const;
   void estimate();
   void take_estimate();
@@ -67,6 +68,7 @@ class KeepOffline : public Panel {
   LayerToKeep layer_;
   std::filesystem::path folder_;  ///< files of the processes, for this user alone
   std::filesystem::path cache_;
+  std::string task_;  ///< the source, with its keys: never a file
   GeoRect box_{};
   int first_ = 0, last_ = 0;  ///< chosen levels
   std::unique_ptr<ProgramJob> estimating_, work_;
