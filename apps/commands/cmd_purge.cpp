@@ -118,7 +118,9 @@ Result<PurgeSummary> purge_one(const PurgeCommand& command, const std::string& c
     auto planned = plan_area(command.area, report->info, cache, rule);
     if (!planned) return planned.error();
     if ((*planned)->total() == 0) {
-      return Error{cache + ": no tile lies wholly within the area; with --levels those that reach beyond it go, too"};
+      return Error{cache + (command.area.levels ? ": no tile of these levels lies in the area"
+                                                : ": no tile lies wholly within the area; with --levels those that "
+                                                  "reach beyond it go, too")};
     }
     plan = *std::move(planned);
     feed = plan->walk();
@@ -176,7 +178,7 @@ int run_purge(const PurgeCommand& command) {
     const auto summary = purge_one(command, cache);
     if (!summary) {
       code = fail("purge", summary.error().message);
-      break;
+      continue;
     }
     all.push_back({cache, *summary});
     if (!command.json) print_result("{}", purge_text(all.back(), command.dry_run));

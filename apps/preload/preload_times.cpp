@@ -117,16 +117,17 @@ Result<std::vector<UtcTime>> preload_instants(const std::vector<std::string>& va
 }
 
 Result<std::vector<UtcTime>> named_instants(const std::vector<std::string>& values, const TimeSteps& steps) {
-  StepList list(steps);
+  std::set<UtcTime> found;
   for (const std::string& value : values) {
     StepList one(steps);
     if (Status added = add_value(value, one, StepRule::named); !added) return added.error();
-    if (one.all().empty()) {
+    const std::vector<UtcTime> named = one.all();
+    if (named.empty()) {
       return Error{fmt::format("--times: there is nothing of {}; there is {}", in_quotes(value), steps.summary())};
     }
-    if (Status added = add_value(value, list, StepRule::named); !added) return added.error();
+    found.insert(named.begin(), named.end());
   }
-  return list.all();
+  return std::vector<UtcTime>(found.begin(), found.end());
 }
 
 Result<PreloadSource> source_at(const PreloadSource& source, UtcTime instant, const HttpOptions& http) {

@@ -55,8 +55,12 @@ Result<std::unique_ptr<ProgramJob>> ProgramJob::start(std::vector<std::string> a
   const int errors = open_for_child(log), output = result.empty() ? -1 : open_for_child(result);
   std::unique_ptr<ProgramJob> job(new ProgramJob(log));
   const int text = input.empty() ? -1 : file_in_memory(input);
-  const ChildProgram child{
-      .program = "/proc/self/exe", .words = std::move(arguments), .input = text, .output = output, .errors = errors, .ends_with_parent = true};
+  const ChildProgram child{.program = "/proc/self/exe",
+                           .words = std::move(arguments),
+                           .input = text,
+                           .output = output,
+                           .errors = errors,
+                           .ends_with_parent = true};
   const bool opened = errors >= 0 && (result.empty() || output >= 0) && (input.empty() || text >= 0);
   const int refused = opened ? start_child(child, job->pid_) : errno;
   for (const int file : {errors, output, text}) {

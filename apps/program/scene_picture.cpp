@@ -456,6 +456,11 @@ std::vector<std::string> ScenePicture::Parts::missing_dates() const {
       return one.layer == image.id && one.instant == *wanted;
     });
     const bool has_reason = why != globe.missing_instants().end() && !why->why.empty();
+    if (date->coming) {
+      sentences.push_back(fmt::format("{}: the tiles of {} have not come; a longer --timeout waits for them",
+                                      image.source.address.redacted(), steps->text(*wanted)));
+      continue;
+    }
     sentences.push_back(fmt::format("{}: no tile of {} in view{}; {}", image.source.address.redacted(),
                                     steps->text(*wanted), has_reason ? " (" + one_line(why->why) + ")" : std::string(),
                                     date->shown ? steps->text(*date->shown) + " is shown" : "the layer is hidden"));

@@ -202,7 +202,10 @@ void Experiments::forget_imagery(Globe& globe) {
   Globe::Impl& own = *globe.impl_;
   if (!own.may_call("Experiments::forget_imagery")) return;
   for (ImageLayer* layer : own.all_images()) layer->forget_tiles();
-  for (auto& [id, one] : own.following) one.fades = false;
+  for (auto& [id, one] : own.following) {
+    one.fades = false;
+    one.step.reset();  // a date that another view lacked may be there
+  }
   own.missing.clear();
   // Made anew from the objects by the next frame.
   for (auto* view : own.views) view->ground = {};

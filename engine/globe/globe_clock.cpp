@@ -20,7 +20,8 @@ bool Globe::Impl::follows_clock(const ImageLayer& layer) const {
 }
 
 // Each instant is asked for once: one that is missing is not asked for again in every frame. While the wanted one
-// comes, the layer shows what it showed; but it does not stay at an instant that is yet to be.
+// comes, the layer shows what it showed. It does not begin with another one, and does not stay at one that is yet to
+// be.
 void Globe::Impl::follow_clock(LayerId id) {
   ImageLayer& shown = *image(id);
   if (!follows_clock(shown)) {
@@ -32,6 +33,8 @@ void Globe::Impl::follow_clock(LayerId id) {
   Following& one = following[id];
   if (one.steps != steps) one = {.steps = steps};
   const std::optional<UtcTime> step = steps->at_or_before(*layer_clock());
+  const ImageLayer* newest = newest_coming(shown);
+  if (newest != nullptr && newest->source()->info().steps != steps) return;  // of Globe::set_source(): it goes first
   if (step && one.step != step) {
     one.step = step;
     if (const Status asked = go_to_time(shown, *step); !asked) note_missing(id, *step, asked.error().message);
@@ -40,7 +43,8 @@ void Globe::Impl::follow_clock(LayerId id) {
   ImageLayer& now = *image(id);
   const bool is_there = newest_coming(now) == nullptr;
   const std::optional<UtcTime> instant = now.source()->info().instant;
-  now.set_early(!step || (is_there && instant && *instant > *step));
+  const bool is_new = now.views().empty();  // nothing of it has been on the screen
+  now.set_early(!step || (is_there ? instant && *instant > *step : is_new));
   follow_next(now, step && is_there ? steps->after(*step) : std::nullopt);
 }
 
@@ -80,7 +84,7 @@ ImageLayer* Globe::Impl::fade_over(ImageLayer& shown) {
   if (next == nullptr) return nullptr;
   if (next->look() != shown.look()) next->set_look(shown.look());
   next->set_share(share);
-  const bool alone = shown.is_see_through(sides()) || next->is_see_through(sides());
+  const bool alone = shown.is_see_through() || next->is_see_through();
   shown.set_share((1.0 - share) / (alone ? 1.0 : 1.0 - shown.look().opacity * share));
   return next;
 }

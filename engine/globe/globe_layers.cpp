@@ -154,7 +154,6 @@ Status Globe::set_source(LayerId imagery, std::shared_ptr<TileSource> source) {
   auto layer = impl_->make_image("Globe::set_source", imagery, std::move(source), shown->look());
   if (!layer) return layer.error();
   (*layer)->set_turn({.number = ++impl_->turns});
-  impl_->following.erase(imagery);
   impl_->drop_coming(imagery, Impl::Coming::all);
   impl_->coming.push_back(*std::move(layer));
   impl_->put_in_place();

@@ -42,7 +42,7 @@ void Globe::Impl::drop_late(LayerId id) {
   while (static_cast<std::size_t>(std::ranges::count_if(coming, is_for)) > kMostComing) {
     auto oldest = coming.end();
     for (auto layer = coming.begin(); layer != coming.end(); ++layer) {
-      if (!is_for(*layer)) continue;
+      if (!is_for(*layer) || (*layer)->turn().is_ahead) continue;
       if (oldest == coming.end() || (*layer)->turn().number < (*oldest)->turn().number) oldest = layer;
     }
     forget_views_of(**oldest);

@@ -173,6 +173,12 @@ bool ImageLayer::hides(const PictureSides& sides) const {
   return opacity() >= 1.0 && !has_transparency_ && look_.blend == LayerBlend::normal && !is_special(sides);
 }
 
+bool ImageLayer::is_see_through() const {
+  const auto is_clear = [](const ColorStop& stop) { return stop.color.a < 255; };
+  const bool has_clear_colors = look_.numbers && std::ranges::any_of(look_.numbers->colors.stops, is_clear);
+  return has_transparency_ || has_clear_colors || look_.alpha == AlphaFrom::brightness;
+}
+
 bool ImageLayer::is_special(const PictureSides& sides) const {
   return look_.alpha == AlphaFrom::brightness || look_.height_m > 0.0 ||
          (sides.night && look_.daylight != Daylight::both) || (sides.swipe && look_.swipe != SwipeSide::both) ||

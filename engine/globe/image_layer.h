@@ -77,8 +77,8 @@ class ImageLayer {
   [[nodiscard]] bool is_opaque(const PictureSides& sides) const;
   /// True if the layer hides all layers under it wherever it has tiles.
   [[nodiscard]] bool hides(const PictureSides& sides) const;
-  /// True if the layer may show those under it at some places more than at others.
-  [[nodiscard]] bool is_see_through(const PictureSides& sides) const { return has_transparency_ || is_special(sides); }
+  /// True if tiles of the layer may show those under it at some places.
+  [[nodiscard]] bool is_see_through() const;
   /// True if the layer needs special programs (LayerFrame::special).
   [[nodiscard]] bool is_special(const PictureSides& sides) const;
   [[nodiscard]] const std::string& attribution() const { return attribution_; }

@@ -44,8 +44,10 @@ enum class SwipeSide {
 
 /// Choice of the instant that an image layer shows, if its source has instants (TileSetInfo::steps).
 enum class LayerClock {
-  own,    ///< Globe::set_layer_time() chooses
-  globe,  ///< the last one at or before the globe's time; none before the first, and then the layer does not show
+  own,  ///< Globe::set_layer_time() chooses
+  /// The last one at or before the globe's time; if that is missing, one of the three before it. Without such an
+  /// instant the layer does not show.
+  globe,
   /// As globe, and the next instant fades in over the shown one in proportion to the time. An instant whose tiles have
   /// not come, or none of which can be had, does not fade in: it appears at its time, or is missing. A layer with
   /// another blend than normal does not fade. Where two tiles with transparent parts are both opaque, up to a quarter

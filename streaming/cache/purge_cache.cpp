@@ -112,7 +112,7 @@ class Purge {
       const std::int64_t first = none ? 0 : next_tile_->integer(0);
       next_tile_->reset();
       if (!row) return row.error();
-      last = std::min(first, kMostId - kRowsAtATime) + kRowsAtATime - 1;
+      last = std::min(first, kMostId - kRowsAtATime + 1) + kRowsAtATime - 1;
       tiles_->bind(1, none ? kMostId : first);
       tiles_->bind(2, none ? kLeastId : last);
       if (none) return purge_all_missing();

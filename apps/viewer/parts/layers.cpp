@@ -48,7 +48,7 @@ LayerToKeep layer_to_keep(const Globe& globe, const LayerRow& row) {
   const TileSetInfo& info = row.tiles->info();
   LayerToKeep keep{.name = row.name, .source = row.source, .info = info, .time = info.time};
   const auto time = globe.layer_time(row.id);
-  if (time && time->shown && info.steps) keep.time = info.steps->text(*time->shown);
+  if (time && time->shown && info.steps && time->shown != info.instant) keep.time = info.steps->text(*time->shown);
   return keep;
 }
 
