@@ -130,6 +130,8 @@ struct HillCase {
   double lat_deg;
 };
 
+void PrintTo(const HillCase& one, std::ostream* out) { *out << one.mode << " at " << one.lat_deg << " degrees"; }
+
 class HillsBesideGdaldem : public testing::TestWithParam<HillCase> {
  protected:
   static constexpr int kAcross = 200, kDown = 150;

@@ -7,6 +7,7 @@ import unittest
 
 import png
 from real_window import WindowTest, differing, wait_until
+from test_actions import ICONS
 
 WIDTH, HEIGHT = 780, 560
 ROUTE = {
@@ -15,6 +16,9 @@ ROUTE = {
     "properties": {"title": "From Rome", "stroke": "#ffff00", "stroke-width": 4},
     "geometry": {"type": "LineString", "coordinates": [[12.5, 41.9], [14.3, 40.9], [18.2, 40.1]]},
 }
+
+BUTTON = 26  # units
+BY_WORTH = ["menu", "compass", "plus", "minus", "search", "layers", "home", "tilted", "flat", "back", "forward", "clock"]
 
 
 class FirstUse(WindowTest):
@@ -67,6 +71,12 @@ class FirstUse(WindowTest):
             self.assertAlmostEqual(there.lon, lon, delta=0.2)
             self.shoot("there")
 
+    def row_of_compass(self):
+        """The row in the column of buttons, which has those of most worth."""
+        _, top, _, bottom = self.viewer.layout.panels["controls"]
+        count = round(((bottom - top) / self.unit - 6) / BUTTON)
+        return [name for name in ICONS if name in BY_WORTH[:count]].index("compass")
+
     def tilt_and_return(self):
         """By the compass; a window without room for it has the key."""
         for key in ("shift+Up", "shift+Up", "shift+Left"):
@@ -76,7 +86,7 @@ class FirstUse(WindowTest):
         self.shoot("tilted")
         for pitch in (tilted.pitch, -90.0):
             if "controls" in self.viewer.layout.panels:
-                self.click_in("controls", 15, 40)
+                self.click_in("controls", 15, 16 + BUTTON * self.row_of_compass())
             else:
                 self.viewer.key("n")
             back = self.viewer.next_camera()
