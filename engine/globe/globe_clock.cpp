@@ -34,7 +34,7 @@ void Globe::Impl::follow_clock(LayerId id) {
   if (one.steps != steps) one = {.steps = steps};
   const std::optional<UtcTime> step = steps->at_or_before(*layer_clock());
   const ImageLayer* newest = newest_coming(shown);
-  if (newest != nullptr && newest->source()->info().steps != steps) return;  // of Globe::set_source(): it goes first
+  if (newest != nullptr && newest->source()->info().steps != steps) return;  // Globe::set_source() goes first
   if (step && one.step != step) {
     one.step = step;
     if (const Status asked = go_to_time(shown, *step); !asked) note_missing(id, *step, asked.error().message);

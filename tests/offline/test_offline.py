@@ -105,10 +105,14 @@ class Offline(WindowTest):
         self.click_in("Layers", KEEP)
         self.viewer.panel("Keep for offline use")
 
+    def estimated(self):
+        """Waits for the button that starts: the window looks for the end of the process that counts once a second."""
+        wait_until("the estimate", lambda: not self.children())
+        self.viewer.settled(still_s=1.2)
+
     def keep(self):
         """Start, pause, resume, end. Returns the child's command."""
-        wait_until("the estimate", lambda: not self.children())
-        self.viewer.settled()
+        self.estimated()
         self.viewer.save_grab(self.folder / "estimate.png")
         before = len(self.server.asked)
         self.server.gate.clear()
@@ -171,7 +175,7 @@ class Offline(WindowTest):
         self.viewer.settled()
         self.open_panel()
         for _ in range(2):
-            wait_until("the estimate", lambda: not self.children())
+            self.estimated()
             self.server.gate.clear()
             self.click_in("Keep for offline use", START)
             wait_until("the preload", self.children)
@@ -180,7 +184,7 @@ class Offline(WindowTest):
             wait_until("its end", lambda: not self.children())
             self.server.gate.set()
             self.assertTrue(self.stored())
-            self.viewer.settled()
+        self.estimated()
         self.server.gate.clear()
         self.click_in("Keep for offline use", START)
         wait_until("the preload", self.children)
@@ -193,8 +197,7 @@ class Offline(WindowTest):
         self.viewer = self.start(*self.words, "--camera", "20,30,3000000")
         self.viewer.settled()
         self.open_panel()
-        wait_until("the estimate", lambda: not self.children())
-        self.viewer.settled()
+        self.estimated()
         before = len(self.server.asked)
         self.server.gate.clear()
         self.click_in("Keep for offline use", START)

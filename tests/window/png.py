@@ -22,6 +22,11 @@ def changed(a, b):
     return count
 
 
+def largest_difference(a, b):
+    """Largest difference of a channel of two pictures of one size, in levels."""
+    return max(max(map(abs, (p - q for p, q in zip(one, other)))) for one, other in zip(a[2], b[2]))
+
+
 def pixel(picture, x, y):
     """Red, green and blue; rows from the top."""
     return tuple(picture[2][y][3 * x : 3 * x + 3])
