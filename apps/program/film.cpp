@@ -99,7 +99,7 @@ Status Film::render() {
   if (wanted_.empty()) return Done{};
   RenderCommand scene = command_.render;
   if (!scene.scene.time) scene.scene.time = plan_.first_sun();
-  if (const Status clock = check_clock(scene.scene); !clock) return clock;
+  if (Status clock = check_clock(scene.scene); !clock) return clock;
   auto opened = ScenePicture::open(scene);
   if (!opened) return opened.error();
   picture_ = *std::move(opened);

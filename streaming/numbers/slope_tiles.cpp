@@ -174,7 +174,7 @@ Result<EncodedTile, TileFailure> SlopeTiles::read_or_stop(const TileId& id, cons
   for (std::int64_t row = first - 1; row <= first + px; ++row) {
     auto next = row_beside(id, row, neighbours, stop);
     if (!next) return next.error();
-    std::ranges::rotate(around, around.begin() + 1);
+    std::rotate(around.begin(), around.begin() + 1, around.end());
     around[2] = *std::move(next);
     if (row <= first) continue;
     const std::array sizes{size_at(id, row - 2), size_at(id, row - 1), size_at(id, row)};
