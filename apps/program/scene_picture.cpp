@@ -18,6 +18,7 @@
 #include "apps/process/console.h"
 #include "apps/process/process.h"
 #include "apps/process/stop_signals.h"
+#include "apps/program/missing_dates.h"
 #include "apps/viewer/draw/drawing_file.h"
 #include "apps/viewer/draw/drawing_scene.h"
 #include "apps/viewer/panels/legend.h"
@@ -201,7 +202,6 @@ struct ScenePicture::Parts {
   /// Renders a view without what is drawn over it.
   Result<FrameStats> render(const Camera& camera);
   [[nodiscard]] std::vector<std::string> attributions() const;
-  [[nodiscard]] std::vector<std::string> missing_dates() const;
   [[nodiscard]] PictureOverlay overlay() const;
   Status draw_over(const PictureOverlay& overlay);
   /// The picture as it is drawn now, and what it was drawn from.
@@ -441,33 +441,6 @@ Status ScenePicture::Parts::draw_over(const PictureOverlay& overlay) {
   return drawn ? Status(Done{}) : Error{where() + drawn.error().message};
 }
 
-std::vector<std::string> ScenePicture::Parts::missing_dates() const {
-  const Globe& globe = *scene.globe;
-  const std::optional<UtcTime> time = keeps_features ? Experiments::of(*scene.globe).layer_clock : globe.options().time;
-  std::vector<std::string> sentences;
-  for (const SceneLayer& image : scene.images) {
-    const auto look = globe.look(image.id);
-    const auto date = globe.layer_time(image.id);
-    const auto steps = image.tiles ? image.tiles->info().steps : nullptr;
-    if (!look || !date || look->clock == LayerClock::own || !steps || !time) continue;
-    const std::optional<UtcTime> wanted = steps->at_or_before(*time);
-    if (!wanted || date->shown == wanted) continue;
-    const auto why = std::ranges::find_if(globe.missing_instants(), [&](const MissingInstant& one) {
-      return one.layer == image.id && one.instant == *wanted;
-    });
-    const bool has_reason = why != globe.missing_instants().end() && !why->why.empty();
-    if (date->coming) {
-      sentences.push_back(fmt::format("{}: the tiles of {} have not come; a longer --timeout waits for them",
-                                      image.source.address.redacted(), steps->text(*wanted)));
-      continue;
-    }
-    sentences.push_back(fmt::format("{}: no tile of {} in view{}; {}", image.source.address.redacted(),
-                                    steps->text(*wanted), has_reason ? " (" + one_line(why->why) + ")" : std::string(),
-                                    date->shown ? steps->text(*date->shown) + " is shown" : "the layer is hidden"));
-  }
-  return sentences;
-}
-
 Rendered ScenePicture::Parts::read(const FrameStats& stats) {
   const Viewport size = drawn_size(command);
   Image image{size.width_px, size.height_px, target->read()};
@@ -476,12 +449,13 @@ Rendered ScenePicture::Parts::read(const FrameStats& stats) {
     light.add(image);
     image = light.mean();
   }
+  const auto time = keeps_features ? Experiments::of(*scene.globe).layer_clock : scene.globe->options().time;
   const auto &missing = scene.globe->missing_tiles(), &heights = scene.globe->missing_heights();
   return {.image = std::move(image),
           .stats = stats,
           .missing = {missing.begin(), missing.end()},
           .missing_heights = {heights.begin(), heights.end()},
-          .missing_dates = missing_dates(),
+          .missing_dates = missing_dates(scene, time),
           .attributions = attributions()};
 }
 

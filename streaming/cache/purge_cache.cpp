@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 /// Other programs get the file between two steps.
 constexpr std::int64_t kRowsAtATime = 4096;
 constexpr int kPagesAtATime = 4096;
-constexpr std::chrono::milliseconds kLockPatience{60'000};
 // The log is written back when it is longer than this, unless another program reads from it for longer than this.
 constexpr std::uintmax_t kMostLogBytes = 32UL << 20;
 constexpr std::chrono::milliseconds kReaderPatience{200};
@@ -54,7 +53,7 @@ constexpr const char* kNextColumn =
 void write_log_back(SqliteWriter& database) {
   database.wait_for_locks(kReaderPatience);
   static_cast<void>(database.integer("PRAGMA wal_checkpoint(TRUNCATE)"));
-  database.wait_for_locks(kLockPatience);
+  database.wait_for_locks(SqliteWriter::kLockPatience);
 }
 
 /// Removes the records step by step. Statements end before the connection does.

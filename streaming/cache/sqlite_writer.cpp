@@ -15,7 +15,6 @@
 namespace terrella {
 namespace {
 
-constexpr std::chrono::milliseconds kDefaultPatience{60'000};
 /// Waits from this length on are reported to the user.
 constexpr std::chrono::seconds kLongWait{1};
 /// A constantly busy writer frees the lock only for moments, several hundred times a second. Short intervals find such
@@ -137,7 +136,7 @@ WriteResult<SqliteWriter> SqliteWriter::open(const std::filesystem::path& path, 
   writer.database_.reset(database);
   if (opened != SQLITE_OK) return error_of(database, opened, errno);
   writer.patience_ = std::make_unique<LockPatience>();
-  writer.patience_->limit = kDefaultPatience;
+  writer.patience_->limit = kLockPatience;
   writer.patience_->on_long_wait = std::move(on_long_wait);
   sqlite3_busy_handler(database, on_busy, writer.patience_.get());
   errno = 0;

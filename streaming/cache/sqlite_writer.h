@@ -91,7 +91,8 @@ class SqliteWriter {
   [[nodiscard]] std::int64_t changed_rows() const;  ///< rows changed by the last INSERT, UPDATE or DELETE
   [[nodiscard]] std::int64_t last_row_id() const;
 
-  /// Sets the longest wait for a lock of another process. The initial value is 60 s.
+  static constexpr std::chrono::milliseconds kLockPatience{60'000};
+  /// Sets the longest wait for a lock of another process. The initial value is kLockPatience.
   void wait_for_locks(std::chrono::milliseconds limit);
   /// True during a wait for a lock, after its first second, until end_wait_for_lock(). thread: any
   [[nodiscard]] bool waits_for_lock() const { return patience_->long_wait; }

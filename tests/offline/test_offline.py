@@ -96,13 +96,17 @@ class Offline(WindowTest):
         left, top, *_ = self.viewer.panel(panel)
         self.viewer.click(round(left) + at[0], round(top) + at[1])
 
-    def open_panel(self):
+    def click_keep(self):
+        """Opens the layer's row, and clicks its button."""
         self.viewer.key("l")
         before = self.viewer.panel("Layers")[3]
         self.click_in("Layers", ROW)
         wait_until("the row", lambda: self.viewer.panel("Layers")[3] > before + 10)
         self.viewer.save_grab(self.folder / "layers.png")
         self.click_in("Layers", KEEP)
+
+    def open_panel(self):
+        self.click_keep()
         self.viewer.panel("Keep for offline use")
 
     def estimated(self):
@@ -234,11 +238,7 @@ class Offline(WindowTest):
     def test_a_view_of_the_sky_alone_is_not_kept(self):
         self.viewer = self.start(*self.words, "--camera", "20,30,3000000,0,60")
         self.viewer.settled()
-        self.viewer.key("l")
-        before = self.viewer.panel("Layers")[3]
-        self.click_in("Layers", ROW)
-        wait_until("the row", lambda: self.viewer.panel("Layers")[3] > before + 10)
-        self.click_in("Layers", KEEP)
+        self.click_keep()
         self.viewer.settled()
         self.viewer.save_grab(self.folder / "sky.png")
         self.assertNotIn("Keep for offline use", self.viewer.layout.panels)
@@ -246,11 +246,7 @@ class Offline(WindowTest):
     def test_without_a_cache_the_window_says_what_to_do(self):
         self.viewer = self.start(*self.words[:3], "--cache", "off", "--unlit", "--camera", "20,30,3000000")
         self.viewer.settled()
-        self.viewer.key("l")
-        before = self.viewer.panel("Layers")[3]
-        self.click_in("Layers", ROW)
-        wait_until("the row", lambda: self.viewer.panel("Layers")[3] > before + 10)
-        self.click_in("Layers", KEEP)
+        self.click_keep()
         self.viewer.settled()
         self.viewer.save_grab(self.folder / "no_cache.png")
         self.assertNotIn("Keep for offline use", self.viewer.layout.panels)

@@ -25,12 +25,16 @@ namespace {
 constexpr double kLegendGap = 0.8;    // in text heights, to the window's edge and the status line
 constexpr double kHighWindow = 18.0;  // in text heights, over the legend
 
+/// True if a layer's dates, if it has some, follow the globe's time.
+bool follows_time(const Globe& globe, const LayerRow& row) {
+  return row.look.clock != LayerClock::own && globe.options().time;
+}
+
 /// The source of a layer with the colours that it has now, and with its instant if that is not the one of the start: a
 /// layer that shows the newest date shows a newer one at the next start.
 SourceOptions described(const Globe& globe, const LayerRow& row) {
   SourceOptions source = row.source;
-  const bool follows = row.look.clock != LayerClock::own && globe.options().time;
-  const auto time = follows ? Result<LayerTime>(LayerTime{}) : globe.layer_time(row.id);
+  const auto time = follows_time(globe, row) ? Result<LayerTime>(LayerTime{}) : globe.layer_time(row.id);
   const auto instant = time ? (time->coming ? time->coming : time->shown) : std::nullopt;
   if (instant && row.tiles && row.tiles->info().steps && instant != row.tiles->info().instant)
     source.remote.time = row.tiles->info().steps->text(*instant);
@@ -180,8 +184,8 @@ std::vector<TimedLayer> Layers::timed() const {
   std::vector<TimedLayer> layers;
   for (auto row = rows_.rbegin(); row != rows_.rend(); ++row) {
     if (row->kind != LayerKind::imagery || !row->look.shown || !row->tiles) continue;
-    const bool follows = row->look.clock != LayerClock::own && context_.globe.options().time;
-    if (auto steps = row->tiles->info().steps) layers.push_back({row->id, row->name, std::move(steps), follows});
+    if (auto steps = row->tiles->info().steps)
+      layers.push_back({row->id, row->name, std::move(steps), follows_time(context_.globe, *row)});
   }
   return layers;
 }
